@@ -52,6 +52,8 @@ Fidelity plan_in(const std::string& file) {
 int run(PlanArguments o, bool error_given) {
   if (error_given && !(o.plan.error > 0 && std::isfinite(o.plan.error)))
     throw InputError("--error", fmt::format("{} is not a positive length", o.plan.error));
+  if (!(o.plan.margin >= 0 && std::isfinite(o.plan.margin)))
+    throw InputError("--margin", fmt::format("{} is not a length", o.plan.margin));
   require_writable(o.out);
   if (!o.use.empty()) o.plan.given = plan_in(o.use);
   const fuzz::Course course = course_named(o);
@@ -83,8 +85,16 @@ Run declare_plan(CLI::App& app) {
       app.add_option("--error", o->plan.error,
                      "largest error of a gap or depth, in the scene's unit (default: a millionth of the "
                      "smallest body)");
+  auto* margin = app.add_option("--margin", o->plan.margin,
+                                "report pairs whose gap is at most this, in the scene's unit, and their gaps")
+                     ->capture_default_str();
+  auto* verdict = app.add_flag("--verdict-only", o->plan.verdict_only,
+                               "only which pairs overlap, or are within the margin: no depths and gaps");
   app.add_flag("--solid-meshes", o->plan.solid_meshes, "treat closed convex meshes as solids");
-  app.add_option("--use", o->use, "measure and judge this plan instead of choosing one")->excludes(error);
+  app.add_option("--use", o->use, "measure and judge this plan instead of choosing one")
+      ->excludes(error)
+      ->excludes(margin)
+      ->excludes(verdict);
   app.add_option("-o,--out", o->out, "file for the plan (JSON), which StepWorld can run");
   app.add_option("--steps", o->steps, "number of steps of a recording to use")
       ->check(CLI::Range(1, 100000))

@@ -53,6 +53,7 @@ Run declare_scenarios(CLI::App& app);
 Run declare_fuzz(CLI::App& app);
 Run declare_import(CLI::App& app);
 Run declare_judge(CLI::App& app);
+Run declare_open(CLI::App& app);
 Run declare_plan(CLI::App& app);
 Run declare_primitives(CLI::App& app);
 Run declare_replay(CLI::App& app);
@@ -83,6 +84,7 @@ inline constexpr auto commands = std::to_array<Command>({
     {"reproduce", "write a finding as a program against the engine", declare_reproduce},
     {"view", "write a page that shows a case or its broad phase", declare_view},
     {"report", "summarise a campaign as text and as a page", declare_report},
+    {"open", "write a page that lists all results in a directory", declare_open},
     {"triage", "compare causes with the ledger of known ones", declare_triage,
      "Every night, on many machines"},
     {"judge", "judge a stored campaign again, without engines", declare_judge},

@@ -53,12 +53,15 @@ filtered::Search rounds(const MovingShape& a, const MovingShape& b, const filter
                             accuracy_of_pair(a, ra.half_height + ra.radius, b, rb.half_height + rb.radius));
 }
 
-// What the types alone decide: every two bounded convex shapes, in either order, and such a shape with one
-// that is static. Static shapes do not meet.
+// What the types alone decide: every two bounded shapes, in either order, and such a shape with a half-space.
 struct General {
   template <class A, class B>
   constexpr Row row() const {
-    if constexpr (!is_convex_shape<A>)
+    if constexpr (std::is_same_v<A, TriangleMesh> && std::is_same_v<B, TriangleMesh>)
+      return {&moving_parts};
+    else if constexpr (std::is_same_v<A, TriangleMesh> && std::is_same_v<B, HalfSpace>)
+      return {&mesh_half_space};
+    else if constexpr (!is_convex_shape<A>)
       return {};
     else if constexpr (is_convex_shape<B>)
       return {&convex_convex, {}, is_polytope_shape<A> && is_polytope_shape<B>};
@@ -91,7 +94,7 @@ constexpr narrow::PairTable<Row> make_table() {
 constexpr narrow::PairTable<Row> table = make_table();
 
 bool moves(const MovingShape& s) { return !s.motion.linear.isZero(0) || !s.motion.angular.isZero(0); }
-bool is_static_shape(const Shape& s) { return !is_convex(kind_of(s)); }
+bool is_moving_mesh(const MovingShape& s) { return kind_of(*s.shape) == ShapeKind::mesh && moves(s); }
 
 ImpactAnswer unsupported() {
   ImpactAnswer r;
@@ -118,6 +121,8 @@ ImpactAnswer mirrored(ImpactAnswer r) {
 ImpactAnswer moving(const MovingShape& a, const MovingShape& b, ImpactDetail detail) {
   const auto [row, is_mirrored] = table.find(a.shape->index(), b.shape->index());
   if (!row) return unsupported();
+  const bool has_convex = is_convex(kind_of(*a.shape)) || is_convex(kind_of(*b.shape));
+  if (has_convex && (is_moving_mesh(a) || is_moving_mesh(b))) return moving_parts(a, b, detail, row);
   return is_mirrored ? mirrored(row.function(b, a, detail, row)) : row.function(a, b, detail, row);
 }
 
@@ -167,7 +172,7 @@ ImpactAnswer time_of_impact(const MovingShape& first, const MovingShape& second,
   using namespace impact;
   const MovingShape a = without_ineffective_rotation(first), b = without_ineffective_rotation(second);
   for (const MovingShape* s : {&a, &b})
-    if (is_static_shape(*s->shape) && moves(*s)) return unsupported();
+    if (kind_of(*s->shape) == ShapeKind::half_space && moves(*s)) return unsupported();
   if (!moves(a) && !moves(b)) return at_rest(a, b, detail);
   if (narrow::has_solid(a, b)) return with_solid(a, b, detail);
   const double way = std::max(a.motion.linear.cwiseAbs().maxCoeff(), b.motion.linear.cwiseAbs().maxCoeff());

@@ -29,8 +29,7 @@ struct ImpactAnswer {
 /// would cost extra work.
 enum class ImpactDetail { time, contact };
 
-/// Supports every pair of the narrow phase but two meshes. A mesh or half-space with a velocity is
-/// unsupported: both are static shapes.
+/// Supports every pair of the narrow phase. A half-space with a velocity is unsupported: it is a static shape.
 ImpactAnswer time_of_impact(const MovingShape& a, const MovingShape& b,
                             ImpactDetail detail = ImpactDetail::contact);
 

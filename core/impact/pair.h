@@ -26,11 +26,16 @@ struct Row {
   constexpr explicit operator bool() const { return function != nullptr; }
 };
 
-/// The functions of rows. Precondition: A is bounded and convex, and a B that is not is at rest.
+/// The functions of rows. Precondition: A is bounded and convex, and a B that is not is at rest, if the
+/// function says nothing else.
 ImpactAnswer convex_convex(const MovingShape& a, const MovingShape& b, ImpactDetail detail, const Row& row);
 ImpactAnswer convex_half_space(const MovingShape& a, const MovingShape& b, ImpactDetail detail,
                                const Row& row);
 ImpactAnswer convex_mesh(const MovingShape& a, const MovingShape& b, ImpactDetail detail, const Row& row);
+/// Either may move, and either may be a mesh or bounded and convex.
+ImpactAnswer moving_parts(const MovingShape& a, const MovingShape& b, ImpactDetail detail, const Row& row);
+/// A mesh that moves and a half-space at rest.
+ImpactAnswer mesh_half_space(const MovingShape& a, const MovingShape& b, ImpactDetail detail, const Row& row);
 
 /// Whether they meet at t = 0, and how, in bounded time. A depth that double cannot prove to be the least
 /// still decides the verdict and is reported: it does separate them, and no time depends on it. (In extended

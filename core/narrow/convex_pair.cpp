@@ -44,19 +44,6 @@ extended::EpaResult<Wide> expand(const extended::Distance<Wide>& g, const Core& 
   return extended::Epa<Wide>(a, b, size, tolerance).run(g, polytopes ? epa_budget_of_polytopes : epa_budget);
 }
 
-// Where several planes are equally deep, the points may be those of another plane than the normal. Its
-// direction is theirs if that is as deep; a direction that differs by less than the points are accurate
-// stays.
-void take_direction_of_points(Separation& s, const Core& a, const Core& b) {
-  const WideVec v = s.a - s.b;
-  const Wide length = v.norm();
-  if (!(length > tolerance::narrow_touching_factor * s.size)) return;
-  const WideVec d = v / length;
-  if (!(length * (d - s.normal).squaredNorm() > tolerance::narrow_accept_factor * s.size)) return;
-  const Wide along = d.dot(support<Wide>(b, -d)) - d.dot(support<Wide>(a, d));
-  if (along >= s.gap - tolerance::narrow_gap_factor * s.size) s.normal = d;
-}
-
 Separation from_epa(extended::EpaResult<Wide> e, const Core& a, const Core& b, Wide size) {
   const Wide tolerance = tolerance::narrow_gap_factor * size, proven = std::max<Wide>(0, e.lower);
   bool local = false;
@@ -72,7 +59,6 @@ Separation from_epa(extended::EpaResult<Wide> e, const Core& a, const Core& b, W
   s.b = e.b;
   s.slack = std::max<Wide>(0, e.upper - proven);
   s.local_slack = local ? tolerance : s.slack;
-  if (s.gap < 0) take_direction_of_points(s, a, b);
   return s;
 }
 

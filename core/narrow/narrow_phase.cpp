@@ -93,6 +93,7 @@ bool fill(FastAnswer<R>& f, const PlacedShape& a, const PlacedShape& b, ContactA
 template <class R>
 void separate(const PlacedShape& a, const PlacedShape& b, Asked asked, PairMemory* memory, FastAnswer<R>& f) {
   f.scene.guess = memory ? V3<R>(memory->direction.cast<R>()) : V3<R>(V3<R>::Zero());
+  f.scene.features = memory ? &memory->features : nullptr;
   narrow::separate_fast<R>(a, b, asked, f);
   if (memory) memory->direction = f.scene.guess.template cast<double>();
 }
@@ -156,15 +157,12 @@ ContactAnswer contact_alone(const PlacedShape& a, const PlacedShape& b, PairMemo
   return r;
 }
 
-ContactAnswer contact_with_triangles(const PlacedShape& a, const PlacedShape& b, Arithmetic arithmetic,
-                                     PairMemory* memory) {
-  if (arithmetic == Arithmetic::float32) return contact_alone<float>(a, b, memory);
-  if (arithmetic == Arithmetic::float64_alone) return contact_alone<double>(a, b, memory);
-  ContactAnswer r;
+// The answer in double; false: extended precision has to decide. Answers are built in place: a manifold is
+// not copied.
+bool fast_contact(const PlacedShape& a, const PlacedShape& b, PairMemory* memory, ContactAnswer& r) {
   FastAnswer<double> f;
   separate<double>(a, b, Asked::contact, memory, f);
-  if (is_decided(f, false) && fill<double>(f, a, b, r)) return r;
-  return narrow::wide_contact(a, b);
+  return is_decided(f, false) && fill<double>(f, a, b, r);
 }
 
 }  // namespace
@@ -194,9 +192,16 @@ DistanceAnswer distance(const PlacedShape& a, const PlacedShape& b, Arithmetic a
 
 ContactAnswer contact(const PlacedShape& a, const PlacedShape& b, Arithmetic arithmetic, PairMemory* memory) {
   if (narrow::has_solid(a, b)) return narrow::solid_contact(a, b, arithmetic, memory);
-  const ContactAnswer r = contact_with_triangles(a, b, arithmetic, memory);
-  if (!r.overlap || !narrow::may_be_flat(a, b)) return r;
-  return narrow::contact_with_plane_of(a, b, r).value_or(r);
+  ContactAnswer r;
+  if (arithmetic == Arithmetic::float32)
+    r = contact_alone<float>(a, b, memory);
+  else if (arithmetic == Arithmetic::float64_alone)
+    r = contact_alone<double>(a, b, memory);
+  else if (!fast_contact(a, b, memory, r))
+    r = narrow::wide_contact(a, b);
+  if (r.overlap && narrow::may_be_flat(a, b))
+    if (const auto flat = narrow::contact_with_plane_of(a, b, r)) r = *flat;
+  return r;
 }
 
 }  // namespace touchstone

@@ -5,17 +5,29 @@
 // precision on the exact pose and rounded once.
 #pragma once
 
+#include <array>
+#include <cstdint>
+
 #include "core/narrow/collider.h"
 #include "core/narrow/result.h"
 
 namespace touchstone {
 
+/// Corners of two polytopes, by number: of the facet of their difference in which the depth was found, and a
+/// pair of the other side. Negative: unknown.
+struct TouchingFeatures {
+  std::array<std::array<std::int32_t, 3>, 2> corner{{{-1, -1, -1}, {-1, -1, -1}}};
+  std::array<std::int32_t, 2> opposite{-1, -1};
+};
+
 /// Cached state of a pair that a caller may keep between queries of any kind, so that a search starts where
-/// the last one ended: a separating direction or the last normal. It is only a guess: verdicts, bounds and
-/// their proofs do not depend on it, and numbers vary only within their bounds. It belongs to the ordered
-/// pair.
+/// the last one ended: a separating direction or the last normal, and for overlapping polytopes the features
+/// that touched, whose depth is the answer if a proof shows that it is still the least. It is only a guess:
+/// verdicts, bounds and their proofs do not depend on it, and numbers vary only within their bounds. It
+/// belongs to the ordered pair.
 struct PairMemory {
   Vec3 direction = Vec3::Zero();  // in a body's frame; zero: unknown
+  TouchingFeatures features;
 };
 
 /// float64: as described above. float64_alone: double only, without the fallback to extended precision: the

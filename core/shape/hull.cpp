@@ -1,6 +1,7 @@
 // Computes the faces of a hull by qhull and its dimension by exact arithmetic on the doubles.
 #include "core/shape/hull.h"
 
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -71,6 +72,15 @@ double clearance(const Hull& h, const Vec3& p) {
   return h.faces.empty() ? 0 : least - plane_rounding * size;
 }
 
+// qhull needs a file for its messages. A stream in memory costs no system call, and what does not fit is
+// lost.
+FILE* message_sink() {
+  thread_local std::array<char, 256> room;
+  thread_local const std::unique_ptr<FILE, int (*)(FILE*)> sink(fmemopen(room.data(), room.size(), "w"),
+                                                                &std::fclose);
+  return sink.get();
+}
+
 // qhull's default merges facets that are coplanar within its rounding bound; Qt then triangulates them again.
 std::vector<std::array<int, 3>> triangulated_faces(const std::vector<Vec3>& v) {
   std::vector<coordT> points;
@@ -79,9 +89,8 @@ std::vector<std::array<int, 3>> triangulated_faces(const std::vector<Vec3>& v) {
   std::unique_ptr<qhT, QhullFree> qh(new qhT);
   qh_zero(qh.get(), nullptr);
   char options[] = "qhull Qt Pp";
-  std::unique_ptr<FILE, int (*)(FILE*)> sink(std::fopen("/dev/null", "w"), &std::fclose);
-  const int failed =
-      qh_new_qhull(qh.get(), 3, static_cast<int>(v.size()), points.data(), False, options, nullptr, sink.get());
+  const int failed = qh_new_qhull(qh.get(), 3, static_cast<int>(v.size()), points.data(), False, options,
+                                  nullptr, message_sink());
   std::vector<std::array<int, 3>> faces;
   if (failed) return faces;
   qhT* const q = qh.get();
@@ -92,8 +101,7 @@ std::vector<std::array<int, 3>> triangulated_faces(const std::vector<Vec3>& v) {
     const int count = qh_setsize(q, vertices);
     if (count == 3)
       for (; n < 3; ++n)
-        f[static_cast<std::size_t>(n)] =
-            qh_pointid(q, static_cast<vertexT*>(SETelem_(vertices, n))->point);
+        f[static_cast<std::size_t>(n)] = qh_pointid(q, static_cast<vertexT*>(SETelem_(vertices, n))->point);
     qh_settempfree(q, const_cast<setT**>(&vertices));
     if (n != 3) return {};
     // qh_facet3vertex orders by the facet's orientation; make it outward by the facet's own normal.
@@ -111,8 +119,7 @@ std::vector<std::array<int, 3>> triangulated_faces(const std::vector<Vec3>& v) {
 Hull make_hull(std::vector<Vec3> vertices) {
   if (vertices.empty()) throw InputError("vertices", "is empty");
   for (std::size_t i = 0; i < vertices.size(); ++i)
-    if (!vertices[i].allFinite())
-      throw InputError("vertices[" + std::to_string(i) + "]", "is not finite");
+    if (!vertices[i].allFinite()) throw InputError("vertices[" + std::to_string(i) + "]", "is not finite");
   Hull h;
   h.dimension = affine_dimension(vertices);
   if (h.dimension == 3) h.faces = triangulated_faces(vertices);

@@ -4,6 +4,7 @@
 
 #include "core/broad/body_box.h"
 #include "core/math/roundoff.h"
+#include "core/narrow/bounded.h"
 
 namespace touchstone {
 namespace {
@@ -25,21 +26,59 @@ double proven(const ContactAnswer& r) {
   return no_value ? 0 : std::max(r.error_bound, r.regret_bound);
 }
 
+// A pair for float arithmetic: relative to A's translation, so that float's error does not grow with the
+// distance from the world origin.
+struct FloatPair {
+  PlacedShape a, b;
+  Vec3 origin;
+  double rounding;  // what rounding the bodies costs
+
+  FloatPair(const PlacedShape& x, const PlacedShape& y) : a(x), b(y), origin(x.pose.translation) {
+    a.pose.translation.setZero();
+    b.pose.translation -= origin;
+    rounding = float_rounding(a.pose, a.bounding_radius()) + float_rounding(b.pose, b.bounding_radius()) +
+               origin_rounding * origin.lpNorm<1>();
+  }
+};
+
 // The float answer, its bounds including the cost of rounding the bodies; or `unsupported`, `not_converged`.
 ContactAnswer contact_by_float(const PlacedShape& a, const PlacedShape& b, PairMemory* memory) {
-  // Relative to A's translation, so that float's error does not grow with the distance from the world origin.
-  const Vec3 origin = a.pose.translation;
-  PlacedShape x = a, y = b;
-  x.pose.translation.setZero();
-  y.pose.translation -= origin;
-  ContactAnswer r = contact(x, y, Arithmetic::float32, memory);
-  const double rounding = float_rounding(x.pose, x.bounding_radius()) +
-                          float_rounding(y.pose, y.bounding_radius()) + origin_rounding * origin.lpNorm<1>();
-  r.error_bound = r.regret_bound = proven(r) + rounding;
+  const FloatPair p(a, b);
+  ContactAnswer r = contact(p.a, p.b, Arithmetic::float32, memory);
+  r.error_bound = r.regret_bound = proven(r) + p.rounding;
   Manifold at_home;
-  for (const ContactPoint& p : r.manifold) at_home.push_back({p.position + origin, p.depth, p.feature});
+  for (const ContactPoint& x : r.manifold) at_home.push_back({x.position + p.origin, x.depth, x.feature});
   r.manifold = at_home;
   return r;
+}
+
+// Whether the gap is at most the margin; `gap` as far as it is known. `error`: proven, of the gap that
+// decided.
+struct Gap {
+  Outcome outcome = Outcome::answered;
+  bool within = false;
+  std::optional<double> gap;
+  double error = 0;
+};
+
+Gap gap_about(double margin, bool verdict_only, const PlacedShape& a, const PlacedShape& b,
+              Arithmetic arithmetic, PairMemory* memory) {
+  if (verdict_only) {
+    const WithinAnswer w = within(a, b, margin, arithmetic, memory);
+    return {w.outcome, w.within, std::nullopt, w.error_bound};
+  }
+  const BoundedDistanceAnswer d = distance(a, b, margin, arithmetic, memory);
+  if (!d.distance) return {d.outcome, false, std::nullopt, 0};
+  return {d.outcome, d.distance->distance <= margin, d.distance->distance, d.distance->error_bound};
+}
+
+Gap gap_by(Arithmetic arithmetic, double margin, bool verdict_only, const PlacedShape& a,
+           const PlacedShape& b, PairMemory* memory) {
+  if (arithmetic != Arithmetic::float32) return gap_about(margin, verdict_only, a, b, arithmetic, memory);
+  const FloatPair p(a, b);
+  Gap g = gap_about(margin, verdict_only, p.a, p.b, arithmetic, memory);
+  g.error += p.rounding;
+  return g;
 }
 
 }  // namespace
@@ -75,8 +114,9 @@ PlannedBody planned_body(const PlannedShape& shape, const Pose& body) {
 }
 
 Aabb planned_box(const Fidelity& f, const PlannedShape& s, const PlannedBody& body) {
-  return f.loose_boxes ? broad::loose_box(s.shape(), body.pose, s.size)
-                       : broad::body_box(s.shape(), body.pose);
+  const Aabb box =
+      f.loose_boxes ? broad::loose_box(s.shape(), body.pose, s.size) : broad::body_box(s.shape(), body.pose);
+  return f.margin == 0 ? box : widened(box, f.margin / 2);
 }
 
 ContactAnswer planned_contact(const Fidelity& fidelity, const PlannedShape& a, const PlannedBody& at_a,
@@ -105,6 +145,55 @@ ContactAnswer planned_contact(const Fidelity& fidelity, const PlannedShape& a, c
   }
   ContactAnswer r = contact(x, y, Arithmetic::float64, memory);
   decide(DecidedBy::rest, proven(r) + shapes);
+  return r;
+}
+
+PlannedNear planned_near(const Fidelity& fidelity, const PlannedShape& a, const PlannedBody& at_a,
+                         const PlannedShape& b, const PlannedBody& at_b, PairMemory* memory,
+                         DecidedBy* decided, double* bound) {
+  PlannedNear r;
+  if (fidelity.margin == 0 && !fidelity.verdict_only) {
+    ContactAnswer c = planned_contact(fidelity, a, at_a, b, at_b, memory, decided, bound);
+    r.outcome = c.outcome;
+    r.within = c.overlap;
+    if (c.overlap) r.contact = std::move(c);
+    return r;
+  }
+  const auto decide = [&](DecidedBy by, double error) {
+    if (decided) *decided = by;
+    if (bound) *bound = error;
+  };
+  const PairMethod& method = fidelity.of(kind_of(a.shape()), kind_of(b.shape()));
+  if (method.balls_first &&
+      balls_apart(at_a.centre_w, a.ball.radius + fidelity.margin, at_b.centre_w, b.ball.radius)) {
+    decide(DecidedBy::balls, 0);
+    return r;
+  }
+  const PlacedShape x = a.collider.at(at_a.pose), y = b.collider.at(at_b.pose);
+  const double shapes = a.error() + b.error(), margin = fidelity.margin;
+  DecidedBy by = DecidedBy::cheap;
+  Gap g = gap_by(method.arithmetic, margin, fidelity.verdict_only, x, y, memory);
+  const bool suffices =
+      g.outcome == Outcome::answered && g.error + shapes <= Fidelity::answer_share * fidelity.error;
+  if (method.arithmetic == Arithmetic::float64 || !suffices) {
+    by = DecidedBy::rest;
+    if (method.arithmetic != Arithmetic::float64)
+      g = gap_by(Arithmetic::float64, margin, fidelity.verdict_only, x, y, memory);
+  }
+  decide(by, g.error + shapes);
+  r.outcome = g.outcome;
+  r.within = g.within;
+  if (!g.within || fidelity.verdict_only) return r;
+  if (g.gap && *g.gap > 0) {
+    r.gap = g.gap;
+    return r;
+  }
+  ContactAnswer c = planned_contact(fidelity, a, at_a, b, at_b, memory, decided, bound);
+  r.outcome = c.outcome;
+  if (c.overlap)
+    r.contact = std::move(c);
+  else
+    r.gap = std::max(0.0, g.gap.value_or(0));
   return r;
 }
 

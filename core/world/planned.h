@@ -42,7 +42,7 @@ struct PlannedBody {
 };
 PlannedBody planned_body(const PlannedShape& shape, const Pose& body);
 
-/// Contains the shape used. The plan chooses the kind of box.
+/// Contains the shape used, and half of the plan's margin around it. The plan chooses the kind of box.
 Aabb planned_box(const Fidelity& fidelity, const PlannedShape& shape, const PlannedBody& body);
 
 /// How a contact was decided. cheap: by the method's arithmetic alone; rest: by float64.
@@ -53,5 +53,19 @@ enum class DecidedBy { balls, cheap, rest };
 ContactAnswer planned_contact(const Fidelity& fidelity, const PlannedShape& a, const PlannedBody& at_a,
                               const PlannedShape& b, const PlannedBody& at_b, PairMemory* memory = nullptr,
                               DecidedBy* decided = nullptr, double* bound = nullptr);
+
+/// A pair about the plan's margin.
+struct PlannedNear {
+  Outcome outcome = Outcome::answered;
+  bool within = false;
+  std::optional<double> gap;             // of a pair that is apart and within the margin
+  std::optional<ContactAnswer> contact;  // of a pair that overlaps
+};
+
+/// Whether the gap is at most the margin, and unless the plan is for verdicts only, the gap or the contact.
+/// Within fidelity.error, as planned_contact().
+PlannedNear planned_near(const Fidelity& fidelity, const PlannedShape& a, const PlannedBody& at_a,
+                         const PlannedShape& b, const PlannedBody& at_b, PairMemory* memory = nullptr,
+                         DecidedBy* decided = nullptr, double* bound = nullptr);
 
 }  // namespace touchstone

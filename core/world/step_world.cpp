@@ -23,9 +23,31 @@ constexpr double pose_slack = 0x1p-40;
 
 bool moves(const Motion& m) { return !m.linear.isZero(0) || !m.angular.isZero(0); }
 
+// Counts what was not answered. Returns whether it was supported.
+bool is_supported(Outcome outcome, StepReport& r) {
+  if (outcome == Outcome::unsupported) {
+    ++r.unsupported;
+    return false;
+  }
+  if (outcome != Outcome::answered) r.outcome = outcome;
+  return true;
+}
+
+void note(int a, int b, ContactAnswer c, StepReport& r) {
+  if (is_supported(c.outcome, r) && c.overlap) r.contacts.push_back({a, b, std::move(c)});
+}
+
+void note(int a, int b, PlannedNear n, StepReport& r) {
+  if (!is_supported(n.outcome, r) || !n.within) return;
+  if (n.contact)
+    r.contacts.push_back({a, b, std::move(*n.contact)});
+  else
+    r.near.push_back({a, b, n.gap});
+}
+
 // The exact body at any t in [0,1] lies within the widened box. The end pose is rounded by at most about ten
 // units of 2^-53 of its coordinates and of the body; pose_slack covers that.
-Aabb widened(const Aabb& end, const InnerExtent& e, const Motion& m) {
+Aabb widened_by_motion(const Aabb& end, const InnerExtent& e, const Motion& m) {
   const double size = std::isinf(e.reach) ? 0 : e.reach;
   const double turn = m.angular.isZero(0) ? 0 : size * m.angular.norm();
   const Vec3 travel = m.linear.cwiseAbs() + Vec3::Constant(turn);
@@ -116,6 +138,10 @@ ContactAnswer StepWorld::contact_of(int a, int b, PairMemory* memory) const {
                          memory);
 }
 
+PlannedNear StepWorld::near_of(int a, int b, PairMemory* memory) const {
+  return planned_near(fidelity_, planned_shape(a), bodies_[at(a)], planned_shape(b), bodies_[at(b)], memory);
+}
+
 void StepWorld::find_contacts(StepReport& r) {
   phase_->pairs(pairs_);
   std::vector<std::pair<broad::IdPair, PairMemory>> memory;
@@ -130,13 +156,10 @@ void StepWorld::find_contacts(StepReport& r) {
       memory.emplace_back(pair, last != memory_.end() && last->first == pair ? last->second : PairMemory{});
       remembered = &memory.back().second;
     }
-    ContactAnswer c = contact_of(a, b, remembered);
-    if (c.outcome == Outcome::unsupported) {
-      ++r.unsupported;
-      continue;
-    }
-    if (c.outcome != Outcome::answered) r.outcome = c.outcome;
-    if (c.overlap) r.contacts.push_back({a, b, std::move(c)});
+    if (fidelity_.margin > 0 || fidelity_.verdict_only)
+      note(a, b, near_of(a, b, remembered), r);
+    else
+      note(a, b, contact_of(a, b, remembered), r);
   }
   memory_.swap(memory);
 }
@@ -176,7 +199,7 @@ std::vector<BodyPair> StepWorld::swept_pairs(const StepReport& r) {
       end.lo.array() -= out;
       end.hi.array() += out;
     }
-    return scene_.bodies[at(i)].motion ? widened(end, extent_[at(i)], motion_of(i)) : end;
+    return scene_.bodies[at(i)].motion ? widened_by_motion(end, extent_[at(i)], motion_of(i)) : end;
   };
   std::vector<BodyPair> found;
   if (r.swept.size() <= few_swept) {

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -34,17 +35,24 @@ struct PairImpact {
   ImpactAnswer impact;
 };
 
+/// A pair within the plan's margin. Without a gap: of a plan for verdicts only.
+struct PairNear {
+  int a = 0, b = 0;  // a < b
+  std::optional<double> gap;
+};
+
 struct StepReport {
   /// not_converged when some contact or impact did not converge; the others are still reported.
   Outcome outcome = Outcome::answered;
   std::vector<PairContact> contacts;  // at the end poses, sorted
-  std::vector<PairImpact> impacts;    // pairs with a swept body that meet within the step; by time, a, b
-  std::vector<SweptBody> swept;       // by body
-  long candidates = 0;                // pairs whose end boxes meet
-  long swept_candidates = 0;          // pairs with a swept body whose swept boxes meet
-  long asked = 0;                     // those whose time of impact was computed
-  long spared = 0;                    // those whose own pass bound is small enough
-  long unsupported = 0;               // omitted: contacts or impacts that the narrow phase does not support
+  std::vector<PairNear> near;       // pairs within the margin that are apart, sorted; with verdicts only, all
+  std::vector<PairImpact> impacts;  // pairs with a swept body that meet within the step; by time, a, b
+  std::vector<SweptBody> swept;     // by body
+  long candidates = 0;              // pairs whose end boxes meet
+  long swept_candidates = 0;        // pairs with a swept body whose swept boxes meet
+  long asked = 0;                   // those whose time of impact was computed
+  long spared = 0;                  // those whose own pass bound is small enough
+  long unsupported = 0;             // omitted: contacts or impacts that the narrow phase does not support
 };
 
 class StepWorld {
@@ -73,6 +81,7 @@ class StepWorld {
   const PlannedShape& planned_shape(int body) const;
   void place_at_end();
   ContactAnswer contact_of(int a, int b, PairMemory* memory) const;
+  PlannedNear near_of(int a, int b, PairMemory* memory) const;
   void find_contacts(StepReport& r);
   void choose(const SweepOptions& o, StepReport& r) const;
   void find_impacts(const SweepOptions& o, StepReport& r);

@@ -173,6 +173,7 @@ std::uint64_t Assembly::response_hash(const Group& g, std::uint64_t place) const
   const Responses of_all = common_response(g);
   Hasher hash;
   hash.add(place).add(reason_of(g, of_all));
+  if (!g.shown_only_by.empty()) hash.add(g.shown_only_by);
   if (!is_exact(g)) return hash.value();
   for (const Responded& r : of_all.responses) hash.add(to_string(r.response));
   for (const std::string& fault : of_all.faults) hash.add(fault);
@@ -259,7 +260,7 @@ void Assembly::add_name(Cause& c, const Group& g, const Findings& findings,
        s.stage == FaultStage::failure ? led.finding->words : "", routes, c.shapes, questions.size() == 1});
   const Responses of_all = common_response(g);
   c.response = of_all.responses;
-  const std::string reason = reason_of(g, of_all);
+  const std::string reason = reason_of(g, seen_in_leader(g, of_all));
   if (reason == not_shown)
     c.title += ": not shown when its case is asked alone";
   else if (!reason.empty())
@@ -286,6 +287,16 @@ Responses Assembly::common_response(const Group& g) const {
       if (n > votes[r]) r = response;
   }
   return common;
+}
+
+// Without what makes the faults of most members vanish but not the leader's: the title is read beside its
+// case.
+Responses Assembly::seen_in_leader(const Group& g, Responses of_all) const {
+  const std::vector<Responded>& own = leader(g).first.responses.responses;
+  for (std::size_t i = 0; i < of_all.responses.size(); ++i)
+    if (own[i].response != Response::gone && of_all.responses[i].response == Response::gone)
+      of_all.responses[i].response = Response::differs;
+  return of_all;
 }
 
 std::string Assembly::reason_of(const Group& g, const Responses& of_all) const {

@@ -45,6 +45,7 @@ class Assembly {
   void add_name(Cause& c, const Group& g, const Findings& findings,
                 const std::vector<std::string>& routes) const;
   Responses common_response(const Group& g) const;
+  Responses seen_in_leader(const Group& g, Responses of_all) const;
   std::string reason_of(const Group& g, const Responses& of_all) const;
   bool is_exact(const Group& g) const;
   void show_gravest(Group& g) const;

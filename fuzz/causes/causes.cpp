@@ -65,14 +65,18 @@ std::set<Symptom> common_symptoms(const Finding& f, const CampaignResult& result
   return common.value_or(std::set<Symptom>());
 }
 
-void add_missing_engines(Causes& out, const Parts& p) {
-  std::set<std::string> missing;
+void add_not_asked(Causes& out, const Parts& p, EnginePool& pool) {
+  std::set<std::string> missing, in_part;
   for (const Representative& r : p.all)
-    if (!r.asked) missing.insert(r.finding->engine);
-  for (const std::string& engine : missing)
-    out.notes.push_back(engine +
-                        ": not all of its findings were asked again (the engine is missing, or the "
-                        "time was up)");
+    if (!r.asked) (pool.named(r.finding->engine) ? in_part : missing).insert(r.finding->engine);
+  if (!in_part.empty())
+    out.notes.push_back(fmt::format(
+        "the time was up (--budget) before all findings were asked again of {}; the rest is grouped by what "
+        "is stored",
+        fmt::join(in_part, ", ")));
+  if (!missing.empty())
+    out.notes.push_back(
+        fmt::format("missing here, so that nothing was asked again of {}", fmt::join(missing, ", ")));
 }
 
 }  // namespace
@@ -96,12 +100,16 @@ Causes causes_of(const CampaignResult& result, const CausesConfig& config) {
   p.all = examined(p.classes, config);
   const std::vector<double> rates = rates_of(p.classes, result);
   p.noise = noise_of(p.classes, p.all);
-  p.groups = grouped({p.classes, p.all, rates, config.knowledge, p.noise});
+  const GroupInput in{p.classes, p.all, rates, config.knowledge, p.noise};
+  p.groups = grouped(in);
+  if (config.before_cross_asking)
+    config.before_cross_asking(assembled(result, p, config.knowledge, [](Cause&, const Representative&) {}));
   EnginePool pool(config.make);
+  p.groups = told_apart(std::move(p.groups), in, pool);
   Causes out = assembled(result, p, config.knowledge, [&](Cause& cause, const Representative& r) {
     if (r.asked) add_evidence(cause, r, config, pool);
   });
-  add_missing_engines(out, p);
+  add_not_asked(out, p, pool);
   return out;
 }
 

@@ -28,6 +28,8 @@ struct CausesConfig {
   std::optional<double> minutes;    // from then on, no further representative is examined
   const std::atomic<bool>* stop = nullptr;
   std::function<void(std::size_t done, std::size_t of)> progress;
+  /// Given the causes before engines are asked about each other's cases (told_apart); for measurements.
+  std::function<void(const Causes&)> before_cross_asking;
 };
 
 /// The causes of all findings, from what is stored alone: nothing is asked, so that one cause listed may be

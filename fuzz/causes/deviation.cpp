@@ -86,14 +86,38 @@ void add_time(Deviation& d, int a, int b, const Observation& o, Truth& truth) {
 std::string missing_number(const Query& q, const Observation& o) {
   if (!std::isfinite(o.claimed_tolerance)) return "claim not a number";
   if (o.claimed_tolerance < 0) return "claim negative";
-  if (q.question == Question::distance || q.question == Question::bounded_distance)
-    return o.distance ? "distance not a number" : "no distance";
+  if (q.question == Question::distance || q.question == Question::bounded_distance) {
+    if (o.moment && !o.moment->allFinite()) return "gradient not a number";
+    if (!o.distance) return "no distance";
+    return std::isinf(*o.distance) ? "distance infinite" : "distance not a number";
+  }
   if (is_motion_question(q.question)) return "time not a number";
   if (!o.overlap) return "no verdict";
   if (q.question != Question::contact || !*o.overlap) return "no_number";
   if (!o.normal) return "no normal";
   if (!o.depth) return "no depth";
   return std::isfinite(*o.depth) ? "no_number" : "depth not a number";
+}
+
+// Which of the two bounds is on the wrong side of the gap.
+void add_bound(Deviation& d, int a, int b, const Observation& o, Truth& truth) {
+  const referee::PairTruth& pair = truth.pair(0, a, b);
+  if (!std::isfinite(pair.gap.lo) || !std::isfinite(pair.gap.hi)) return;
+  const double gap = middle(pair.gap);
+  const bool is_lower = o.lower_bound && *o.lower_bound > gap;
+  if (!is_lower && !o.upper_bound) return;
+  d.manner = is_lower ? "lower bound" : "upper bound";
+  d.of[static_cast<std::size_t>(Reference::truth)] = gap;
+  d.error = (is_lower ? *o.lower_bound : *o.upper_bound) - gap;
+}
+
+void add_gradient(Deviation& d, int a, int b, const Observation& o, Truth& truth) {
+  if (!o.normal || !o.moment) return;
+  const Vec3& n = truth.pair(0, a, b).normal;
+  if (o.normal->dot(n) < nearly_opposite * n.norm())
+    d.manner = "gradient opposite";
+  else if (o.moment->isZero(0))
+    d.manner = "moment zero";
 }
 
 // Points that are off, or no points at all.
@@ -138,9 +162,13 @@ Deviation deviation_of(const Case& c, const Query& q, const Observation& o, cons
     case Fault::stale:
     case Fault::unstable:
     case Fault::inner_edge:
-    case Fault::bound_off:
-    case Fault::gradient_off:
     case Fault::failed:
+      break;
+    case Fault::bound_off:
+      add_bound(d, r.a, r.b, o, truth);
+      break;
+    case Fault::gradient_off:
+      add_gradient(d, r.a, r.b, o, truth);
       break;
     case Fault::no_number:
       d.manner = missing_number(q, o);

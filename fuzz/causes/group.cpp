@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 #include <tuple>
+#include <utility>
 
 #include "fuzz/judge/relation.h"
 
@@ -159,15 +160,17 @@ class Grouping {
     return may_share_route(i, j) && respond_alike(i, j);
   }
 
-  // A case that proves nothing about its cause joins the first group of its class.
+  // A case that proves nothing about its cause joins the first group of its class; where responses are exact,
+  // the first one whose cases prove nothing either.
   bool fits(std::size_t i, const Group& g) const {
     const std::size_t leader = g.members.front();
     const std::string why = documented(i);
     if (why != g.documented) return false;
     if (!why.empty()) return shares_code(i, leader) || is_same_library(i, leader);
     if (have_one_cause(leader, i)) return true;
-    const bool says_something = is_exact(noise(class_of(i).path)) || !is_fragile(at(i).first.responses);
-    if (is_usable(i) && says_something) return false;
+    const bool exact = is_exact(noise(class_of(i).path));
+    if (is_usable(i) && (exact || !is_fragile(at(i).first.responses))) return false;
+    if (exact && is_usable(leader)) return false;  // what shows when asked alone has another cause
     return std::ranges::any_of(g.members, [&](std::size_t m) { return at(m).of_class == at(i).of_class; });
   }
 
@@ -177,7 +180,10 @@ class Grouping {
         g.members.push_back(i);
         return;
       }
-    groups_.push_back({{i}, {}, {}, documented(i), ""});
+    Group g;
+    g.members = {i};
+    g.documented = documented(i);
+    groups_.push_back(std::move(g));
   }
 
   std::uint64_t wrong(const Group& g) const {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "fuzz/causes/engine_pool.h"
 #include "fuzz/causes/representative.h"
 
 namespace touchstone::fuzz {
@@ -30,6 +31,7 @@ struct Group {
   std::vector<std::size_t> consequences;  // representatives whose faults follow from this one's
   std::vector<const Finding*> explained;  // contradictions; set by Assembly
   std::string documented;                 // as in EngineKnowledge; of all members
+  std::string shown_only_by;              // engines, if others were told apart by them; set by told_apart
   std::string id;                         // of its cause; set by Assembly
 };
 
@@ -55,5 +57,12 @@ struct GroupInput {
 
 /// Every representative is in exactly one group, as a member or as a consequence. Deterministic.
 std::vector<Group> grouped(const GroupInput& in);
+
+/// Asks engines of one path about each other's cases, and divides groups whose engines do not show the fault
+/// there, with about the same error: two findings with equal responses may still have two causes, if two
+/// engines show them. Of findings of one engine this says nothing, because it shows both. Only where the
+/// responses of one cause are equal as a rule (is_exact): elsewhere a case near a boundary shows a fault in
+/// one engine and not in another by chance. Members whose own case shows nothing stay with the first part.
+std::vector<Group> told_apart(std::vector<Group> groups, const GroupInput& in, EnginePool& pool);
 
 }  // namespace touchstone::fuzz

@@ -102,6 +102,8 @@ std::optional<Case> meet_half_way(const Case& c);
 std::optional<Case> meet_late(const Case& c);
 std::optional<Case> move_faster(const Case& c);
 std::optional<Case> move_slower(const Case& c);
+std::optional<Case> travel_twice_as_far(const Case& c);
+std::optional<Case> as_turning_bar(const Case& c);
 std::optional<Case> insert_final_poses(const Case& c);
 std::optional<Case> move_in_place(const Case& c);
 std::optional<Case> move_away_and_back(const Case& c);
@@ -274,6 +276,8 @@ inline constexpr auto interventions = std::to_array<Intervention>({
     {"move_faster", "64 times as fast, meeting at half of the step", "only for slow bodies", move_faster,
      130},
     {"move_slower", "1/64 as fast, meeting at half of the step", "only for fast bodies", move_slower, 120},
+    {"travel_twice_as_far", "bodies travelling twice as far", "only for short ways", travel_twice_as_far, 0},
+    {"as_turning_bar", "a bar that turns into a cube in their place", "", as_turning_bar, 0},
     {"insert_final_poses", "the script replaced by its last state",
      "needs the history of the script: vanishes when the last state is inserted at once", insert_final_poses,
      380},

@@ -131,7 +131,7 @@ std::string main_reason(const Responses& r, FaultStage stage, const std::vector<
     // Whether the bodies overlap matters for distances alone: other faults need it.
     const bool is_about_side = x.intervention == "pull_apart" || x.intervention == "push_together";
     const int telling =
-        is_about_side && stage == FaultStage::distance ? 1 : telling_of(x.intervention, others);
+        is_about_side && stage == FaultStage::distance ? 1 : meaning_of(x.intervention, others).telling;
     if (telling <= most) continue;
     most = telling;
     best = &x;
@@ -145,7 +145,7 @@ std::string describe_reason(const std::string& reason, const Responses& r,
   if (reason == fragile_reason)
     return fmt::format("a borderline case: vanishes under {} of {} changes", gone, gone + stays);
   if (reason == steady_reason) return fmt::format("whatever is changed: stays under all {} changes", stays);
-  return meaning_of(reason, others);
+  return meaning_of(reason, others).if_gone;
 }
 
 std::string describe_law(std::span<const ErrorLaw> laws) {

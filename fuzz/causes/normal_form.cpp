@@ -18,11 +18,28 @@ bool is_about_two(const Case& c) {
          c.queries[0].question != Question::swept_candidates;
 }
 
+bool is_valid(const Case& c) try {
+  validate(c.scene);
+  return true;
+} catch (const InputError&) {
+  return false;
+}
+
+bool is_about_scene(const Case& c) {
+  return !c.queries.empty() && std::ranges::none_of(c.queries, is_pair_question, &Query::question);
+}
+
+// Without those in which shapes move that cannot.
+std::vector<Case> valid(std::vector<Case> all) {
+  std::erase_if(all, [](const Case& plain) { return !is_valid(plain); });
+  return all;
+}
+
 std::vector<Case> plain_cases(const Case& c, PlainForms forms) {
-  if (is_motion_question(c.queries[0].question)) return plain_impacts(c, *pair_of(c));
+  if (is_motion_question(c.queries[0].question)) return valid(plain_impacts(c, *pair_of(c)));
   const auto p = true_pair(c);
   if (!p) return {};
-  return forms == PlainForms::all ? plain_pairs(c, *p) : nearest_plain_pairs(c, *p);
+  return valid(forms == PlainForms::all ? plain_pairs(c, *p) : nearest_plain_pairs(c, *p));
 }
 
 // Put in batches, because the first ones show most faults.
@@ -46,13 +63,6 @@ std::optional<Case> in_place(const Case& c, Change change) {
   const auto changed = change(c);
   if (!changed) return std::nullopt;
   return with_gap(*changed, before->gap);
-}
-
-bool is_valid(const Case& c) try {
-  validate(c.scene);
-  return true;
-} catch (const InputError&) {
-  return false;
 }
 
 class Plainer {
@@ -86,6 +96,10 @@ class Plainer {
 }  // namespace
 
 Case normal_form(const Case& c, const StillShows& still, PlainForms forms) {
+  if (forms == PlainForms::all && is_about_scene(c)) {
+    const bool moving = c.queries[0].question == Question::swept_candidates;
+    if (auto shown = first_shown(valid(plain_scenes(c, moving)), still)) return *std::move(shown);
+  }
   if (!is_about_two(c)) return c;
   if (forms == PlainForms::nearest && is_motion_question(c.queries[0].question)) return c;
   const std::vector<Case> plain = plain_cases(c, forms);

@@ -1,22 +1,15 @@
 #include "fuzz/causes/plain_cases.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
 
+#include "fuzz/causes/plain_shapes.h"
 #include "fuzz/judge/exact_map.h"
 
 namespace touchstone::fuzz {
 namespace {
-
-using ShapePair = std::pair<Shape, Shape>;
-
-std::array<ShapePair, 4> shape_pairs() {
-  const Shape sphere = Sphere{1}, cube = Box{Vec3::Ones()};
-  return {ShapePair{sphere, sphere}, ShapePair{cube, cube}, ShapePair{sphere, cube}, ShapePair{cube, sphere}};
-}
 
 double power_of_two_near(double x) {
   constexpr double touching = 0x1p-50;  // of the size: less is a rounding
@@ -26,7 +19,7 @@ double power_of_two_near(double x) {
 
 // The bodies of the pair with these shapes, the second `gap` beside the first along x. Bodies that shared a
 // shape share one.
-Case side_by_side(const Case& c, const BodyPair& p, const ShapePair& shapes, double gap) {
+Case side_by_side(const Case& c, const BodyPair& p, const PlainPair& shapes, double gap) {
   Case r = c;
   const bool is_shared = shapes.first == shapes.second && c.scene.bodies[0].shape == c.scene.bodies[1].shape;
   r.scene.shapes = is_shared ? std::vector{shapes.first} : std::vector{shapes.first, shapes.second};
@@ -35,7 +28,8 @@ Case side_by_side(const Case& c, const BodyPair& p, const ShapePair& shapes, dou
   first.pose = second.pose = {};
   first.shape = 0;
   second.shape = is_shared ? 0 : 1;
-  second.pose.translation.x() = 2 + std::max(-2.0, gap);
+  const double reach = shapes.reach_first + shapes.reach_second;
+  second.pose.translation.x() = reach + std::max(-reach, gap);
   return r;
 }
 
@@ -70,7 +64,7 @@ constexpr Course courses[] = {
     {.gap = 1, .speed = 2, .turn_a = 3},
 };
 
-Case on_course(const Case& c, const BodyPair& p, const ShapePair& shapes, const Course& course) {
+Case on_course(const Case& c, const BodyPair& p, const PlainPair& shapes, const Course& course) {
   Case r = side_by_side(c, p, shapes, course.gap);
   Body &a = r.scene.bodies[static_cast<std::size_t>(p.first)],
        &b = r.scene.bodies[static_cast<std::size_t>(p.second)];
@@ -88,8 +82,8 @@ constexpr double shares[] = {0.5, 0x1p-8, 0x1p-20, 0x1p-40};
 
 // What else a fault may need: another direction or place, bodies of two sizes, turned, or one in the other.
 struct Arrangement {
-  std::array<double, 3> towards = {1, 0, 0};  // from the first body to the second
-  std::array<double, 3> at = {0, 0, 0};       // the first body
+  Numbers towards = {1, 0, 0};  // from the first body to the second
+  Numbers at = {0, 0, 0};       // the first body
   double size_a = 1, size_b = 1;
   bool turned_a = false, turned_b = false;
   bool is_inside = false;  // the second body, not quite at the centre of the first
@@ -114,59 +108,83 @@ constexpr Arrangement arrangements[] = {
     {.at = {16, 32, 64}, .size_a = 4, .is_inside = true},
 };
 
-Vec3 vec3(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
-Shape sized(const Shape& s, double by) {
-  Shape r = s;
-  change_numbers(r, [by](auto& v, Domain) { v *= by; });
+PlainPair sized(const PlainPair& p, double first, double second) {
+  PlainPair r = p;
+  change_numbers(r.first, [first](auto& v, Domain) { v *= first; });
+  change_numbers(r.second, [second](auto& v, Domain) { v *= second; });
+  r.reach_first *= first;
+  r.reach_second *= second;
   return r;
 }
 
 // Empty where the gap cannot be had.
-std::optional<Case> arranged(const Case& c, const BodyPair& p, const ShapePair& shapes,
+std::optional<Case> arranged(const Case& c, const BodyPair& p, const PlainPair& shapes,
                              const Arrangement& how, double gap) {
-  Case r = side_by_side(c, p, {sized(shapes.first, how.size_a), sized(shapes.second, how.size_b)}, gap);
+  const PlainPair sizes = sized(shapes, how.size_a, how.size_b);
+  Case r = side_by_side(c, p, sizes, gap);
   Pose &a = r.scene.bodies[static_cast<std::size_t>(p.first)].pose,
        &b = r.scene.bodies[static_cast<std::size_t>(p.second)].pose;
   const Quat turn = normalized(Quat{0.25, 0.125, 0.5, 1});
   if (how.turned_a) a.rotation = turn;
   if (how.turned_b) b.rotation = turn;
-  const double between = how.is_inside ? 0.25 : how.size_a + how.size_b + gap;
+  const double between = how.is_inside ? 0.25 : sizes.reach_first + sizes.reach_second + gap;
   a.translation = vec3(how.at);
   b.translation = a.translation + vec3(how.towards) * between;
-  const bool is_exact = !how.turned_a && !how.turned_b && vec3(how.towards).norm() == 1;
+  const bool is_exact = shapes.is_exact && !how.turned_a && !how.turned_b && vec3(how.towards).norm() == 1;
   if (how.is_inside) return gap < 0 ? std::optional(r) : std::nullopt;
   return is_exact ? std::optional(r) : with_gap(r, gap);
 }
 
-}  // namespace
+// The gap is set by the referee where it is not plain.
+std::optional<Case> with_plain_gap(const Case& c, const BodyPair& p, const PlainPair& shapes, double gap) {
+  const Case r = side_by_side(c, p, shapes, gap);
+  return shapes.is_exact ? std::optional(r) : with_gap(r, gap);
+}
 
-std::vector<Case> plain_pairs(const Case& c, const TruePair& p) {
+std::vector<double> plain_gaps(const TruePair& p) {
   const double own = power_of_two_near(p.gap / p.size);
   std::vector<double> gaps;
   if (own != 0)
     for (const double share : shares) gaps.push_back(std::copysign(share, own));
   gaps.push_back(own);
+  return gaps;
+}
+
+void add_if_any(std::vector<Case>& to, std::optional<Case> c) {
+  if (c) to.push_back(*std::move(c));
+}
+
+std::vector<PlainPair> own_pairs_of(const Case& c, const BodyPair& p) {
+  return own_pairs(c.scene.shape_of(p.first), c.scene.shape_of(p.second));
+}
+
+}  // namespace
+
+std::vector<Case> plain_pairs(const Case& c, const TruePair& p) {
+  const std::vector<double> gaps = plain_gaps(p);
   const BodyPair pair{p.a, p.b};
   std::vector<Case> all;
-  for (const double gap : gaps)
-    for (const ShapePair& shapes : shape_pairs()) all.push_back(side_by_side(c, pair, shapes, gap));
-  for (const Arrangement& how : arrangements)
-    for (const ShapePair& shapes : shape_pairs())
-      if (auto plain = arranged(c, pair, shapes, how, gaps.front())) all.push_back(*std::move(plain));
+  for (const auto& kinds : {common_pairs(), own_pairs_of(c, pair)}) {
+    for (const double gap : gaps)
+      for (const PlainPair& shapes : kinds) add_if_any(all, with_plain_gap(c, pair, shapes, gap));
+    for (const Arrangement& how : arrangements)
+      for (const PlainPair& shapes : kinds) add_if_any(all, arranged(c, pair, shapes, how, gaps.front()));
+  }
   return all;
 }
 
 std::vector<Case> nearest_plain_pairs(const Case& c, const TruePair& p) {
   std::vector<Case> all;
-  for (const ShapePair& shapes : shape_pairs())
+  for (const PlainPair& shapes : common_pairs())
     all.push_back(side_by_side(c, {p.a, p.b}, shapes, power_of_two_near(p.gap / p.size)));
   return all;
 }
 
 std::vector<Case> plain_impacts(const Case& c, const BodyPair& p) {
   std::vector<Case> all;
-  for (const Course& course : courses)
-    for (const ShapePair& shapes : shape_pairs()) all.push_back(on_course(c, p, shapes, course));
+  for (const auto& kinds : {common_pairs(), own_pairs_of(c, p)})
+    for (const Course& course : courses)
+      for (const PlainPair& shapes : kinds) all.push_back(on_course(c, p, shapes, course));
   return all;
 }
 

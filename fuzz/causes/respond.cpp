@@ -150,12 +150,12 @@ class Table {
 // The same question to an engine that has answered nothing yet, and again in memory with other contents.
 void ask_afresh(const Case& c, const Symptom& s, const std::string& engine, EnginePool& pool, Table& table) {
   const EnginePtr fresh = pool.fresh(engine);
-  table.add(fresh_process, "asked in a fresh process", answers_of({&c, 1}, fresh, s).at(0));
+  table.add(fresh_process.name, fresh_process.change, answers_of({&c, 1}, fresh, s).at(0));
   Answer again;
   if (!needs_comparison(s))
     if (const auto observed = fresh->run_again({&c, 1}); !observed.empty())
       again = judged(c, fresh->card(), observed[0], s);
-  table.add(other_memory, "asked in memory with other contents", again);
+  table.add(other_memory.name, other_memory.change, again);
 }
 
 // Judged as an answer of the engine concerned: a sibling that claims more for the same wrong answer does not
@@ -255,25 +255,22 @@ Responses respond(const Case& c, const Symptom& symptom, const std::string& engi
   return r;
 }
 
-int telling_of(const std::string& intervention, const std::vector<OtherEngine>& others) {
-  constexpr int of_fresh_process = 700, of_other_memory = 690;  // before all interventions
-  for (const Intervention& i : interventions)
-    if (i.name == intervention) return i.telling;
-  for (const OtherEngine& other : others)
-    if (other.name == intervention) return other.telling;
-  if (intervention == fresh_process) return of_fresh_process;
-  if (intervention == other_memory) return of_other_memory;
-  return 0;
+std::optional<Deviation> shown_by(const std::string& engine, const Case& c, const Symptom& symptom,
+                                  EnginePool& pool) {
+  const EnginePtr& e = pool.named(engine);
+  if (!e) return std::nullopt;
+  const Answer answer = answers_of({&c, 1}, e, symptom).at(0);
+  return answer.response == Response::stays ? std::optional(answer.deviation) : std::nullopt;
 }
 
-std::string meaning_of(const std::string& intervention, const std::vector<OtherEngine>& others) {
+Meaning meaning_of(const std::string& intervention, const std::vector<OtherEngine>& others) {
   for (const Intervention& i : interventions)
-    if (i.name == intervention) return std::string(i.if_gone);
+    if (i.name == intervention) return {i.telling, std::string(i.if_gone)};
   for (const OtherEngine& other : others)
-    if (other.name == intervention) return other.if_gone;
-  if (intervention == fresh_process) return "needs earlier questions: vanishes in a fresh process";
-  if (intervention == other_memory) return "depends on memory that was never written";
-  return "";
+    if (other.name == intervention) return {other.telling, other.if_gone};
+  for (const Restart& r : {fresh_process, other_memory})
+    if (r.name == intervention) return {r.telling, std::string(r.if_gone)};
+  return {};
 }
 
 }  // namespace touchstone::fuzz

@@ -1,6 +1,7 @@
 // Asks one engine about a case and all its changed forms.
 #pragma once
 
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -30,8 +31,15 @@ struct Responses {
 /// Of the case and of every form that shows the fault in the same part of the answer.
 std::vector<Deviation> deviations_of(const Responses& r);
 
-/// Names and changes of the interventions that need no other engine, after those of intervention.h.
-inline constexpr std::string_view fresh_process = "fresh_process", other_memory = "other_memory";
+/// What is changed about the process instead of the case; asked after the interventions of intervention.h.
+struct Restart {
+  std::string_view name, change, if_gone;
+  int telling;  // as in Intervention, before all of them
+};
+inline constexpr Restart fresh_process{"fresh_process", "asked in a fresh process",
+                                       "needs earlier questions: vanishes in a fresh process", 700};
+inline constexpr Restart other_memory{"other_memory", "asked in memory with other contents",
+                                      "depends on memory that was never written", 690};
 /// The name of the other engine that differs in the format of its numbers (OtherEngine::name).
 inline constexpr std::string_view other_precision = "other_precision";
 
@@ -44,10 +52,16 @@ bool needs_comparison(const Symptom& s);
 Responses respond(const Case& c, const Symptom& symptom, const std::string& engine,
                   const std::vector<OtherEngine>& others, EnginePool& pool);
 
-/// How much it says about a cause that the fault vanishes (intervention.h).
-int telling_of(const std::string& intervention, const std::vector<OtherEngine>& others);
+/// What is wrong in the engine's answer to the case, if it shows the symptom. Nothing if the engine is
+/// missing.
+std::optional<Deviation> shown_by(const std::string& engine, const Case& c, const Symptom& symptom,
+                                  EnginePool& pool);
 
-/// The clause of a title for an intervention after which the fault vanishes; empty if it has none.
-std::string meaning_of(const std::string& intervention, const std::vector<OtherEngine>& others);
+/// What is known of an intervention beside the response to it.
+struct Meaning {
+  int telling = 0;      // how much it says about a cause that the fault vanishes (intervention.h)
+  std::string if_gone;  // the clause of a title then; empty if there is none
+};
+Meaning meaning_of(const std::string& intervention, const std::vector<OtherEngine>& others);
 
 }  // namespace touchstone::fuzz

@@ -23,7 +23,7 @@ class Engine {
   virtual std::vector<CaseObservations> run_again(std::span<const Case>) { return {}; }
   /// Why the engine is no longer queried, so that its answers are `not_asked`; empty while it is queried.
   virtual std::string set_aside() const { return ""; }
-  /// Resumes querying, with the patience counters reset.
+  /// Resumes querying, in a new process if it was put aside, with the patience counters reset.
   virtual void take_back() {}
   /// Stops querying, for this reason.
   virtual void put_aside(const std::string& /*why*/) {}

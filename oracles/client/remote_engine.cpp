@@ -75,6 +75,11 @@ class RemoteEngine::Impl {
     throw;
   }
 
+  void take_back() {
+    if (!patience_.left()) session_.reset();
+    patience_ = {};
+  }
+
   EngineCard card_;
   int restarts_ = 0;
   Patience patience_;
@@ -351,7 +356,7 @@ std::vector<CaseObservations> RemoteEngine::run_again(std::span<const Case> case
   return impl_->run(cases, other_fill);
 }
 std::string RemoteEngine::set_aside() const { return impl_->patience_.why(); }
-void RemoteEngine::take_back() { impl_->patience_ = {}; }
+void RemoteEngine::take_back() { impl_->take_back(); }
 void RemoteEngine::put_aside(const std::string& why) { impl_->patience_.end(why); }
 std::string RemoteEngine::sandbox() const { return impl_->sandbox(); }
 int RemoteEngine::restarts() const { return impl_->restarts_; }

@@ -78,6 +78,8 @@ Json to_json(const Fidelity& f) {
     for (std::size_t b = a; b < f.method.size(); ++b)
       if (f.method[a][b] != PairMethod{}) methods[pair_name(a, b)] = method_json(f.method[a][b]);
   return {{"error", f.error},
+          {"margin", f.margin},
+          {"verdict_only", f.verdict_only},
           {"broad_phase", f.broad_phase},
           {"loose_boxes", f.loose_boxes},
           {"solid_meshes", f.solid_meshes},
@@ -96,6 +98,9 @@ Fidelity fidelity_from_json(const Json& json, const std::string& place) {
   f.solid_meshes = j["solid_meshes"].boolean();
   f.loose_boxes = j["loose_boxes"].boolean();
   f.sweep.share = j["sweep_share"].number();
+  if (j.has("margin")) f.margin = j["margin"].number();  // plans made before there were margins have none
+  if (j.has("verdict_only")) f.verdict_only = j["verdict_only"].boolean();
+  if (!(f.margin >= 0)) j["margin"].fail("must not be negative");
   if (!(f.error > 0) || !(f.sweep.share > 0)) j.fail("error and sweep_share must be positive");
   if (!broad::make_broad_phase(f.broad_phase))
     j["broad_phase"].fail("no broad phase is called '" + f.broad_phase + "'");

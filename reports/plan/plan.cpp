@@ -46,24 +46,32 @@ std::vector<PlanShape> shape_rows(const Course& c, const Fidelity& f) {
   return rows;
 }
 
+// What is asked, without any saving.
+Fidelity asked_of(const PlanOptions& o) {
+  Fidelity f;
+  f.margin = o.given ? o.given->margin : o.margin;
+  f.verdict_only = o.given ? o.given->verdict_only : o.verdict_only;
+  return f;
+}
+
 // The fixed choices that a user could make without a plan.
-std::vector<Way> fixed_ways(const Course& c, const std::vector<PlanPhase>& phases) {
+std::vector<Way> fixed_ways(const Course& c, const std::vector<PlanPhase>& phases, const Fidelity& asked) {
   // Broad phases slower than this, relative to the fastest, are left out.
   constexpr double too_slow = 8;
   std::vector<Way> ways;
   for (const PlanPhase& p : phases) {
     if (p.ns_step > too_slow * phases.front().ns_step && p.name != "automatic") continue;
-    Way w{p.name + ", double", {}, false, {}};
+    Way w{p.name + ", double", asked, false, {}};
     w.fidelity.broad_phase = p.name;
     ways.push_back(w);
   }
-  Way single{"automatic, float unproven", {}, false, {}};
+  Way single{"automatic, float unproven", asked, false, {}};
   single.fidelity.error = std::numeric_limits<double>::infinity();
   for (auto& row : single.fidelity.method) row.fill({false, Arithmetic::float32});
   ways.push_back(single);
   if (!c.moves()) return ways;
-  Way all{"automatic, double, all swept", {}, false, {}},
-      none{"automatic, double, none swept", {}, false, {}};
+  Way all{"automatic, double, all swept", asked, false, {}},
+      none{"automatic, double, none swept", asked, false, {}};
   all.fidelity.sweep.which = SweepOptions::Which::all;
   none.fidelity.sweep.which = SweepOptions::Which::none;
   ways.push_back(all);
@@ -112,7 +120,7 @@ void add_plans(const Scenery& s, const PlanOptions& o, const Fidelity& base, std
 
 void add_planned_ways(const Scenery& s, const PlanOptions& o, double error, std::vector<Way>& ways) {
   const std::size_t before = ways.size();
-  Fidelity f;
+  Fidelity f = asked_of(o);
   f.error = error;
   f.loose_boxes = true;  // equally safe, and cheaper
   f.solid_meshes = o.solid_meshes;
@@ -275,6 +283,11 @@ Plan make_plan(const Course& c, const PlanOptions& o, const PlanProgress& progre
     throw InputError("error", fmt::format("{:g} is less than double can prove on this scene: {:.2g}", p.error,
                                           p.least_error));
   if (o.given) require_fits(c, *o.given);
+  const Fidelity asked = asked_of(o);
+  p.margin = asked.margin;
+  p.verdict_only = asked.verdict_only;
+  if (!(p.margin >= 0 && std::isfinite(p.margin)))
+    throw InputError("margin", fmt::format("{:g} is not a length", p.margin));
 
   // The scene for the referee; convex meshes become solids if requested.
   Course solid = c;
@@ -285,8 +298,8 @@ Plan make_plan(const Course& c, const PlanOptions& o, const PlanProgress& progre
   say("broad phases");
   Scenery scenery{c, end_poses(c), {}, {}};
   const EndPoses& poses = scenery.poses;
-  scenery.candidates = course_candidates(c, poses);
-  scenery.phases = p.phases = measure_phases(c, poses, o.rounds);
+  scenery.candidates = course_candidates(c, poses, asked.margin);
+  scenery.phases = p.phases = measure_phases(c, poses, o.rounds, asked.margin);
   std::vector<Way> ways;
   if (o.given)
     ways.push_back({"plan", *o.given, true, {}});
@@ -296,7 +309,7 @@ Plan make_plan(const Course& c, const PlanOptions& o, const PlanProgress& progre
       add_planned_ways(scenery, o, error, ways);
     }
   const std::size_t planned = ways.size();
-  for (Way& w : fixed_ways(c, p.phases)) ways.push_back(std::move(w));
+  for (Way& w : fixed_ways(c, p.phases, asked)) ways.push_back(std::move(w));
   const auto times = run_ways(c, ways, o.rounds, progress);
   for (const auto& of_way : times) p.rounds = std::max<std::uint64_t>(p.rounds, of_way.size());
   std::size_t best = 0;
@@ -304,7 +317,7 @@ Plan make_plan(const Course& c, const PlanOptions& o, const PlanProgress& progre
     if (least(times[w]) < least(times[best])) best = w;
 
   say("the referee");
-  const PlanSample sample(solid, poses, scenery.candidates, o.seed, o.judged);
+  const PlanSample sample(solid, poses, scenery.candidates, o.seed, o.judged, p.margin);
   p.judged = sample.judged();
   p.undecided = sample.undecided();
   Judging judging{c, sample, p, std::vector<std::uint64_t>(c.steps.size(), 0)};

@@ -19,6 +19,8 @@ struct PlanOptions {
   std::uint64_t seed = 1;
   int rounds = 5;             // interleaved measurements of each way; the minimum counts
   int judged = 48;            // pairs that the referee judges
+  double margin = 0;          // pairs this near matter, in the scene's unit
+  bool verdict_only = false;  // which pairs, and nothing else about them
   bool solid_meshes = false;  // treat closed, convex meshes as solids
   /// If set, this plan is measured and judged instead of choosing one.
   std::optional<Fidelity> given;

@@ -10,11 +10,12 @@
 namespace touchstone::fuzz {
 
 /// A sample of the course's pairs with the referee's verdicts, the same for every way to run it. Up to half
-/// of the pairs are in contact, and kinds of shapes take turns.
+/// of the pairs are in contact, or within the margin, and kinds of shapes take turns.
 class PlanSample {
  public:
   PlanSample(const Course& course, const EndPoses& poses,
-             const std::vector<std::vector<BodyPair>>& candidates, std::uint64_t seed, int pairs);
+             const std::vector<std::vector<BodyPair>>& candidates, std::uint64_t seed, int pairs,
+             double margin = 0);
 
   /// Adds the errors in this step's report to the row.
   void judge(int step, const StepReport& report, double error, PlanRow& row) const;
@@ -29,9 +30,11 @@ class PlanSample {
     bool has_depth = true;  // false for a mesh, whose depth is undefined
   };
   Placed placed(int step, int body) const;
+  double error_of(int step, const Judged& j, const StepReport& report) const;
 
   const Course& course_;
   const EndPoses& poses_;
+  double margin_;
   std::map<int, std::vector<Judged>> of_step_;
   std::uint64_t judged_ = 0, undecided_ = 0;
 };

@@ -16,25 +16,36 @@ namespace {
 // CPU time of this thread, which does all the work, so other processes disturb the result less.
 double ns_since(std::int64_t start) { return static_cast<double>(thread_cpu_ns() - start); }
 
+// A body's box with half of the margin around it.
+Aabb box_about(const Course& c, int body, const Pose& pose, double margin) {
+  const Aabb box = broad::body_box(c.scene.shape_of(body), pose);
+  return margin == 0 ? box : widened(box, margin / 2);
+}
+
 // The boxes of the moving bodies in every step, as updates for a broad phase.
-std::vector<std::vector<broad::BoxUpdate>> box_updates(const Course& c, const EndPoses& poses) {
+std::vector<std::vector<broad::BoxUpdate>> box_updates(const Course& c, const EndPoses& poses,
+                                                       double margin) {
   std::vector<std::vector<broad::BoxUpdate>> all;
   for (std::size_t s = 0; s < c.steps.size(); ++s) {
     all.emplace_back();
     for (const Course::Move& m : c.steps[s].moves)
-      all.back().push_back({m.body, broad::body_box(c.scene.shape_of(m.body), poses[s][at(m.body)])});
+      all.back().push_back({m.body, box_about(c, m.body, poses[s][at(m.body)], margin)});
   }
   return all;
 }
 
-double time_phase(const Course& c, const std::vector<std::vector<broad::BoxUpdate>>& updates,
-                  std::string_view name) {
-  const auto phase = broad::make_broad_phase(name);
+void insert_bodies(const Course& c, double margin, broad::BroadPhase& phase) {
   for (int i = 0; i < static_cast<int>(c.scene.bodies.size()); ++i) {
     const Body& b = c.scene.bodies[at(i)];
-    phase->insert(i, broad::body_box(c.scene.shape_of(i), b.pose),
-                  b.is_static ? broad::Mobility::fixed : broad::Mobility::moving);
+    phase.insert(i, box_about(c, i, b.pose, margin),
+                 b.is_static ? broad::Mobility::fixed : broad::Mobility::moving);
   }
+}
+
+double time_phase(const Course& c, const std::vector<std::vector<broad::BoxUpdate>>& updates,
+                  std::string_view name, double margin) {
+  const auto phase = broad::make_broad_phase(name);
+  insert_bodies(c, margin, *phase);
   std::vector<broad::IdPair> pairs;
   double total = 0;
   int counted = 0;
@@ -93,7 +104,7 @@ class Bench {
   // Returns ns per pair. Uses the answers, so that the compiler cannot remove the calls.
   double time(const Fidelity& f) {
     const auto start = thread_cpu_ns();
-    for (const Pair& p : pairs_) contacts_ += planned_contact(f, *p.a, p.at_a, *p.b, p.at_b).overlap;
+    for (const Pair& p : pairs_) contacts_ += planned_near(f, *p.a, p.at_a, *p.b, p.at_b).within;
     return ns_since(start) / static_cast<double>(pairs_.size());
   }
 
@@ -102,7 +113,7 @@ class Bench {
     for (const Pair& p : pairs_) {
       DecidedBy by{};
       double bound = 0;
-      const ContactAnswer c = planned_contact(f, *p.a, p.at_a, *p.b, p.at_b, nullptr, &by, &bound);
+      const PlannedNear c = planned_near(f, *p.a, p.at_a, *p.b, p.at_b, nullptr, &by, &bound);
       balls += by == DecidedBy::balls;
       cheap += by == DecidedBy::cheap;
       if (c.outcome == Outcome::answered) r.certified_error = std::max(r.certified_error, bound);
@@ -164,14 +175,12 @@ EndPoses end_poses(const Course& c) {
   return all;
 }
 
-std::vector<std::vector<BodyPair>> course_candidates(const Course& c, const EndPoses& poses) {
+std::vector<std::vector<BodyPair>> course_candidates(const Course& c, const EndPoses& poses, double margin) {
   const auto phase = broad::make_broad_phase("automatic");
-  for (int i = 0; i < static_cast<int>(c.scene.bodies.size()); ++i)
-    phase->insert(i, broad::body_box(c.scene.shape_of(i), c.scene.bodies[at(i)].pose),
-                  c.scene.bodies[at(i)].is_static ? broad::Mobility::fixed : broad::Mobility::moving);
+  insert_bodies(c, margin, *phase);
   std::vector<std::vector<BodyPair>> all;
   std::vector<broad::IdPair> pairs;
-  for (const auto& updates : box_updates(c, poses)) {
+  for (const auto& updates : box_updates(c, poses, margin)) {
     phase->update(updates);
     phase->pairs(pairs);
     all.emplace_back();
@@ -181,19 +190,20 @@ std::vector<std::vector<BodyPair>> course_candidates(const Course& c, const EndP
   return all;
 }
 
-std::vector<PlanPhase> measure_phases(const Course& c, const EndPoses& poses, int rounds) {
+std::vector<PlanPhase> measure_phases(const Course& c, const EndPoses& poses, int rounds, double margin) {
   // A broad phase slower than the fastest by this factor is not measured again.
   constexpr double too_slow = 8;
-  const auto updates = box_updates(c, poses);
+  const auto updates = box_updates(c, poses, margin);
   std::vector<PlanPhase> phases;
   for (const auto& row : broad::catalog)
-    phases.push_back({std::string(row.name), time_phase(c, updates, row.name)});
+    phases.push_back({std::string(row.name), time_phase(c, updates, row.name, margin)});
   for (int round = 1; round < rounds; ++round) {
     const double best = std::min_element(phases.begin(), phases.end(), [](const auto& x, const auto& y) {
                           return x.ns_step < y.ns_step;
                         })->ns_step;
     for (PlanPhase& p : phases)
-      if (p.ns_step < too_slow * best) p.ns_step = std::min(p.ns_step, time_phase(c, updates, p.name));
+      if (p.ns_step < too_slow * best)
+        p.ns_step = std::min(p.ns_step, time_phase(c, updates, p.name, margin));
   }
   std::stable_sort(phases.begin(), phases.end(),
                    [](const auto& x, const auto& y) { return x.ns_step < y.ns_step; });

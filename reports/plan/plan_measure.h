@@ -17,11 +17,14 @@ EndPoses end_poses(const Course& course);
 struct Occurrence {
   int step = 0, a = 0, b = 0;  // a < b
 };
-/// The candidate pairs of every step, from the broad-phase boxes of the bodies without simpler shapes.
-std::vector<std::vector<BodyPair>> course_candidates(const Course& course, const EndPoses& poses);
+/// The candidate pairs of every step, from the broad-phase boxes of the bodies without simpler shapes, with
+/// half of the margin around them.
+std::vector<std::vector<BodyPair>> course_candidates(const Course& course, const EndPoses& poses,
+                                                     double margin = 0);
 
 /// Measures every broad phase of the core (boxes of the moving bodies in, pairs out); fastest first.
-std::vector<PlanPhase> measure_phases(const Course& course, const EndPoses& poses, int rounds);
+std::vector<PlanPhase> measure_phases(const Course& course, const EndPoses& poses, int rounds,
+                                      double margin = 0);
 
 /// Sets `fidelity.method` of each pair of kinds that occurs to the fastest on a sample of its candidates.
 /// Returns the measurements, most expensive pairs first.

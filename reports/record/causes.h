@@ -96,8 +96,10 @@ struct Cause {
   double rate() const { return asked > 0 ? static_cast<double>(wrong) / static_cast<double>(asked) : 0; }
 };
 
-/// From these rates of wrong answers on, and below, a cause is called systematic or a corner case.
+/// From these rates of wrong answers on, and below, a cause is called systematic or a corner case; neither
+/// with fewer answers than this, of which a rate says little.
 inline constexpr double systematic_from = 0.30, corner_case_below = 0.01;
+inline constexpr std::uint64_t fewest_for_rate = 10;
 
 struct Causes {
   std::string campaign;  // its directory, for people

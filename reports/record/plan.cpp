@@ -49,6 +49,8 @@ Json to_json(const Plan& p) {
           {"steps", p.steps},
           {"rounds", p.rounds},
           {"least_error", p.least_error},
+          {"margin", p.margin},
+          {"verdict_only", p.verdict_only},
           {"convex_meshes", p.convex_meshes},
           {"run", p.run},
           {"phases", std::move(phases)},

@@ -59,6 +59,8 @@ struct Plan {
   std::string scene;
   std::uint64_t seed = 0, bodies = 0, steps = 0, rounds = 0;
   double error = 0, least_error = 0;  // requested; the least that double can prove on this scene
+  double margin = 0;                  // pairs this near are reported
+  bool verdict_only = false;          // which they are, and nothing else
   std::string broad_phase;
   bool remember = false, solid_meshes = false;
   std::uint64_t convex_meshes = 0;  // closed, convex meshes

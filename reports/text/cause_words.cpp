@@ -52,7 +52,8 @@ std::string share_text(double share) {
 std::string rate_text(const Cause& c) {
   if (c.asked == 0) return counted(c.wrong, "wrong answer", "wrong answers");
   const double rate = c.rate();
-  const std::string_view word = rate >= fuzz::systematic_from    ? ": systematic"
+  const std::string_view word = c.asked < fuzz::fewest_for_rate  ? ""
+                                : rate >= fuzz::systematic_from  ? ": systematic"
                                 : rate < fuzz::corner_case_below ? ": corner case"
                                                                  : "";
   return fmt::format("{} of {} wrong ({}){}", grouped(c.wrong), grouped(c.asked), share_text(rate), word);
@@ -80,7 +81,7 @@ std::string size_text(const CaseSize& s) {
 std::string_view expected_of(Severity s) {
   switch (s) {
     case Severity::crash:
-      return "An answer that can be read.";
+      return "The call returns an answer.";
     case Severity::hang:
       return "An answer within the time limit.";
     case Severity::missed:

@@ -153,6 +153,16 @@ std::string saving(const Plan& p) {
          "\n";
 }
 
+std::string asked(const Plan& p) {
+  if (p.margin == 0 && !p.verdict_only) return "";
+  return wrapped(fmt::format("Asked: {}{}.",
+                             p.margin > 0 ? fmt::format("which pairs are within {}", small(p.margin))
+                                          : std::string("which pairs overlap"),
+                             p.verdict_only ? ", and nothing else" : ", how far apart, and their contacts"),
+                 79, 2) +
+         "\n";
+}
+
 std::string tighter(const Plan& p) {
   const double error = p.run.value("error", p.error);
   if (!(error < p.error)) return "";
@@ -185,7 +195,7 @@ std::string plan_text(const Plan& p) {
                                          p.steps, small(p.error), small(p.least_error)),
                              79, 2) +
                      "\n";
-  text += tighter(p) + phases(p) + shapes(p) + meshes(p);
+  text += asked(p) + tighter(p) + phases(p) + shapes(p) + meshes(p);
   text += p.remember ? "Searches start from the result of the previous step.\n" : "";
   text += pairs(p) + sweeps(p) + "\n" + rows(p) + saving(p);
   const auto plan = std::find_if(p.rows.begin(), p.rows.end(), [](const PlanRow& r) { return r.is_plan; });

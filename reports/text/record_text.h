@@ -7,6 +7,7 @@
 #include "reports/record/assessment.h"
 #include "reports/record/broad_certificate.h"
 #include "reports/record/chart.h"
+#include "reports/record/motions.h"
 #include "reports/record/observation_json.h"
 #include "reports/record/plan.h"
 #include "reports/record/stability.h"
@@ -58,6 +59,9 @@ inline constexpr const char* chart_end = "<!-- chart: end -->\n";
 /// One table per question (engine × ladder) of the rung where each begins to fail; then a list of the
 /// ladders.
 std::string stability_text(const fuzz::Stability& s);
+
+/// Tables engine × motion of flicker, wrong answers and state, the kinds of flicker, and evidence of each.
+std::string motions_text(const fuzz::Motions& m);
 
 // A broad-phase certificate as text in 80 columns.
 

@@ -12,7 +12,16 @@
 namespace touchstone::reports {
 namespace {
 
-std::string vec(const Vec3& v) { return fmt::format("({:.6g} {:.6g} {:.6g})", v.x(), v.y(), v.z()); }
+// All digits, without the sign of a zero.
+std::string exactly(double x) { return to_text(x == 0 ? 0.0 : x); }
+std::string exactly(const Vec3& v) {
+  return fmt::format("({}, {}, {})", exactly(v.x()), exactly(v.y()), exactly(v.z()));
+}
+
+// Adding zero takes the sign from a zero.
+std::string vec(const Vec3& v) {
+  return fmt::format("({:.6g} {:.6g} {:.6g})", v.x() + 0.0, v.y() + 0.0, v.z() + 0.0);
+}
 
 std::string bracket(const std::array<double, 2>& b) {
   if (b[0] == b[1]) return fmt::format("{:.12g} exactly", b[0]);
@@ -52,20 +61,16 @@ std::string certificate_lines(const Certificate& c) {
     case Kind::none:
       return "";
     case Kind::separating_plane:
-      return fmt::format(
-          "    certificate: plane n·x = c, A on n·x <= c, B beyond;\n      n = ({}, {},\n           {}), c = "
-          "{}\n",
-          to_text(c.direction.x()), to_text(c.direction.y()), to_text(c.direction.z()), to_text(c.offset));
+      return "    certificate: plane n·x = c, A on n·x <= c, B beyond;\n" +
+             wrapped(fmt::format("      n = {}, c = {}", exactly(c.direction), exactly(c.offset)), 78, 11) +
+             "\n";
     case Kind::common_point:
       if (!c.rationals.empty())
         return "    certificate: a common point with rational coordinates (--json shows it)\n";
-      return wrapped(fmt::format("    certificate: common point ({}, {}, {})", to_text(c.point.x()),
-                                 to_text(c.point.y()), to_text(c.point.z())),
-                     78, 6) +
-             "\n";
+      return wrapped("    certificate: common point " + exactly(c.point), 78, 6) + "\n";
     case Kind::depth_direction:
       return fmt::format("    certificate: moving B by {} along\n      {} separates it from A\n",
-                         to_text(c.offset), vec(c.direction));
+                         exactly(c.offset), vec(c.direction));
     case Kind::inner_polytope:
       return fmt::format("    certificate of the depth: polytope of {} support points, {} facets (--json)\n",
                          c.support_pairs.size(), c.facets.size());

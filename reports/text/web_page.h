@@ -1,6 +1,7 @@
 // Inserts data into a page of reports/web: the built page has a placeholder for the JSON.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -12,6 +13,11 @@ namespace touchstone::reports {
 /// `built`: one page as built by Vite. JSON of `compressed_from` bytes or more is inserted as
 /// {"deflate": base64 of its zlib stream}. Throws InputError if the placeholder is missing.
 std::string web_page(std::string built, std::string_view json);
+
+/// The data in a page that web_page made: the JSON as it was given. nullopt if it is not such a page. Throws
+/// InputError naming `place` if the data is damaged, or longer than `most` bytes.
+std::optional<std::string> data_of_page(std::string_view page, const std::string& place,
+                                        std::size_t most = std::size_t{256} << 20);
 
 /// Shorter data stays readable in the page itself.
 inline constexpr std::size_t compressed_from = 200'000;

@@ -22,6 +22,7 @@ List degenerate_written_oddly();
 List motion_tunnelling();
 List motion_boundaries();
 List motion_rotation();
+List motion_frames();
 List crowd_lattices();
 List crowd_piles();
 List lifecycle_scripts();

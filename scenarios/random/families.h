@@ -78,6 +78,10 @@ void margins(Rng& rng, Case& c);
 void loose_crowd(Rng& rng, Case& c);
 void rays(Rng& rng, Case& c);
 
+// A smooth motion in 4 to 16 frames (motions.h): candidates in every frame, contacts in the first.
+
+void motions(Rng& rng, Case& c);
+
 // Variants in which a case of any family may be presented: the pair swapped, the queries reordered,
 // quaternions of any length, the previous case again with one body moved.
 

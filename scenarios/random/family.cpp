@@ -213,7 +213,7 @@ constexpr std::size_t first_later = 28;
 // Those from here on replace a share of the cases of all before them in the same way.
 constexpr std::size_t first_of_margins = 30;
 // And those from here on, a share of the cases of all before them.
-constexpr std::size_t first_of_solids = 34;
+constexpr std::size_t first_of_solids = 35;
 
 constexpr Family catalog[] = {
     {"separate", "disjoint pairs, gap 0.1 % to 100 % of their size", 14, separate},
@@ -252,11 +252,13 @@ constexpr Family catalog[] = {
     {"rays", "rays at and past faces, edges, corners; from inside; ending on the surface", 3, rays},
     // Only when asked for by name: a case takes as long as a hundred others.
     {"endless", "2 to 5 bodies, 300 to 699 queries about their pairs in any order", 0, endless_dialogue},
+    // Only when asked for by name: `stability --motions` judges every frame and what changes between them.
+    {"motions", "a smooth motion in 4 to 16 frames: settling, sliding, rolling, a top, a hinge", 0, motions},
     {"solids", "solid meshes, some hollow, against any shape: apart, touching, deep, inside", 6, solids},
 };
 static_assert(catalog[first_later - 1].name == "dialogue");
 static_assert(catalog[first_of_margins - 1].name == "surfaces");
-static_assert(catalog[first_of_solids - 1].name == "endless");
+static_assert(catalog[first_of_solids - 1].name == "motions");
 
 int total_weight(std::span<const Family> families) {
   return std::accumulate(families.begin(), families.end(), 0,

@@ -132,17 +132,29 @@ TEST_CASE("points of another normal than the answer's have no gradient", "[narro
   CHECK_FALSE(gradient(d, Vec3::Zero()));
 }
 
-TEST_CASE("among normals of one depth, extended precision answers the normal of its points",
-          "[narrow][gradient]") {
-  // Two boxes with one centre: the points found are those of the opposite normal.
-  const Case c = fuzz::make_case(
-      77, 3753,
-      "separate,near,shallow,deep,contained,lattice,far,parallel,tiny,zero,unequal,later,mesh,surfaces");
-  const PlacedShape a{&c.scene.shape_of(0), c.scene.bodies[0].pose},
-      b{&c.scene.shape_of(1), c.scene.bodies[1].pose};
-  const Separation s = separation(a, b);
-  REQUIRE(s.gap < 0);
-  CHECK((s.b - s.a - s.gap * s.normal).norm() <= -1e-9 * s.gap);
+TEST_CASE("among normals of one depth, the answer's normal is that of its points", "[narrow][gradient]") {
+  // Most have one centre and the same depth along n and -n. Found among the first 60,000 of these families.
+  for (const std::uint64_t i : {2523, 2948, 3753, 10058, 51214, 52657, 56629, 57182, 59193}) {
+    const Case c = fuzz::make_case(
+        77, i,
+        "separate,near,shallow,deep,contained,lattice,far,parallel,tiny,zero,unequal,later,mesh,surfaces");
+    for (const int first : {0, 1}) {
+      const auto placed = [&](int k) {
+        return PlacedShape{&c.scene.shape_of(k), c.scene.bodies[static_cast<std::size_t>(k)].pose};
+      };
+      const PlacedShape a = placed(first), b = placed(1 - first);
+      INFO("case " << i << ", first body " << first);
+      const Separation s = separation(a, b);
+      REQUIRE(s.outcome == Outcome::answered);
+      REQUIRE(s.gap < 0);
+      CHECK((s.b - s.a - s.gap * s.normal).norm() <= -1e-6 * s.gap);
+      for (const Arithmetic arithmetic : {Arithmetic::float64, Arithmetic::float64_alone}) {
+        const DistanceAnswer d = distance(a, b, arithmetic);
+        if (d.outcome != Outcome::answered) continue;  // double alone may not resolve it
+        CHECK((d.witness[1] - d.witness[0] - d.distance * d.normal).norm() <= -1e-6 * d.distance);
+      }
+    }
+  }
 }
 
 TEST_CASE("every gradient of the set bounds the distance from the side of its normal", "[narrow][gradient]") {

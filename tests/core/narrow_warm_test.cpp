@@ -77,6 +77,9 @@ TEST_CASE("an arbitrary memory does no harm", "[narrow][warm]") {
     const Pair p = random_pair(r, static_cast<ShapeKind>(r.below(7)), static_cast<ShapeKind>(r.below(7)),
                                static_cast<Regime>(r.below(regime_count)));
     PairMemory m;
+    for (auto& corners : m.features.corner)
+      for (std::int32_t& k : corners) k = static_cast<std::int32_t>(r.below(30)) - 2;
+    for (std::int32_t& k : m.features.opposite) k = static_cast<std::int32_t>(r.below(30)) - 2;
     switch (i % 6) {
       case 0:
         m.direction = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());

@@ -227,6 +227,15 @@ TEST_CASE("gaps are set to shares of the smaller body, whatever they were", "[ca
   }
 }
 
+TEST_CASE("interventions about an impact leave alone a question that names no bodies", "[causes]") {
+  Case c = pair_case(Sphere{1}, Sphere{1}, Vec3(4, 0, 0), Question::swept_candidates);
+  c.queries = {{Question::swept_candidates, -1, -1}};
+  c.scene.bodies[1].motion = Motion{Vec3(-4, 0, 0), Vec3(0, 0, 1)};
+  for (const auto change : {fuzz::let_a_turn, fuzz::let_b_turn, fuzz::stop_turning_a, fuzz::stop_turning_b,
+                            fuzz::move_b_only, fuzz::meet_early, fuzz::meet_head_on, fuzz::move_faster})
+    CHECK_FALSE(change(c));
+}
+
 TEST_CASE("an impact is moved to another time of the step", "[causes]") {
   Case c = pair_case(Sphere{0.5}, Sphere{0.5}, Vec3(3, 0, 0), Question::time_of_impact);
   c.scene.bodies[1].motion = Motion{Vec3(-8, 0, 0), Vec3::Zero()};
@@ -440,6 +449,59 @@ TEST_CASE("a case becomes as plain as its fault allows", "[causes]") {
   CHECK(kind_of(turned.scene.shape_of(1)) == ShapeKind::sphere);
 }
 
+TEST_CASE("a fault of one kind of shape becomes a plain pair with that kind", "[causes]") {
+  const fuzz::Symptom missed{Question::overlap, FaultStage::verdict, "missed"};
+  const auto plain = [&](const std::string& engine, const Case& c) {
+    const EnginePtr e = liar(engine);
+    const fuzz::EngineKnowledge knowledge = one_route();
+    const auto found = fuzz::findings_of({&c, 1}, e);
+    const auto wrong = std::ranges::find_if(
+        found.at(0), [&](const auto& f) { return fuzz::symptom_of(f.second) == missed; });
+    REQUIRE(wrong != found.at(0).end());
+    const auto still = fuzz::keeps(e, fuzz::kept_of(c, wrong->second, e, knowledge), knowledge);
+    const Case r = fuzz::normal_form(c, still);
+    CHECK(still({&r, 1})[0]);
+    return r;
+  };
+  const Case cylinders = plain("overlap_denied_cylinders", pair_case(Cylinder{0.5, 2}, Cylinder{0.25, 3},
+                                                                     Vec3(0.5, 0.25, 1), Question::overlap));
+  CHECK(cylinders.scene.shapes == std::vector<Shape>{Cylinder{1, 1}, Cylinder{1, 1}});
+  const Case cone = plain("overlap_one_pair_denied",
+                          pair_case(Cone{0.5, 2}, Capsule{0.25, 3}, Vec3(0.125, 0.25, 1), Question::overlap));
+  CHECK(cone.scene.shapes == std::vector<Shape>{Capsule{1, 1}, Cone{1, 1}});
+  // A capsule without height stays one.
+  const Case flat = plain("zero_capsule_short", pair_case(Box{Vec3(0.5, 0.75, 0.25)}, Capsule{0.25, 0},
+                                                          Vec3(0.5, 0.25, 0.125), Question::overlap));
+  CHECK(flat.scene.shapes == std::vector<Shape>{Capsule{1, 0}, Sphere{1}});
+}
+
+TEST_CASE("a fault of a whole scene becomes a plain scene with what it needs", "[causes]") {
+  const auto plain = [&](const std::string& engine, Case c) {
+    const EnginePtr e = liar(engine);
+    const fuzz::EngineKnowledge knowledge = fuzz::no_knowledge();
+    const auto found = fuzz::findings_of({&c, 1}, e);
+    REQUIRE(found.at(0).size() == 1);
+    const auto still = fuzz::keeps(e, fuzz::kept_of(c, found[0].begin()->second, e, knowledge), knowledge);
+    const Case r = fuzz::normal_form(c, still);
+    CHECK(still({&r, 1})[0]);
+    return r.scene;
+  };
+  Case c = pair_case(Box{Vec3(0.5, 0.75, 0.25)}, Box{Vec3(0.25, 0.5, 1)}, Vec3(0.375, 0.25, 1.125),
+                     Question::candidates);
+  using Op = Step::Op;
+  c.scene.script = {{Op::insert, 0, {}}, {Op::insert, 1, {}}, {Op::query, -1, {}}, {Op::remove, 1, {}},
+                    {Op::query, -1, {}}, {Op::insert, 1, {}}, {Op::query, -1, {}}};
+  const Scene again = plain("lost_on_reinsert", c);
+  CHECK(again.shapes == std::vector<Shape>{Box{Vec3::Ones()}});
+  CHECK(again.bodies.size() == 2);
+  CHECK(again.script.size() == 6);  // inserted, asked, one removed and inserted, asked
+  CHECK(std::ranges::count(again.script, Op::remove, &Step::op) == 1);
+  // A lie that needs no history is shown without one.
+  const Scene any = plain("first_pair_dropped", c);
+  CHECK(any.script.empty());
+  CHECK(any.bodies.size() == 2);
+}
+
 TEST_CASE("an impact becomes as plain as its fault allows", "[causes]") {
   Case c = pair_case(Box{Vec3(0.5, 0.75, 0.25)}, Box{Vec3(0.25, 0.5, 1)}, Vec3(3.375, 0.25, 1.125),
                      Question::time_of_impact);
@@ -515,6 +577,33 @@ TEST_CASE("findings of one library that are reduced to one case are one, whateve
   CHECK(two.groups() == 1);
   two.all[1].first.responses.deviation.manner = "normal";
   CHECK(two.groups() == 2);
+}
+
+TEST_CASE("engines of one path are told apart by each other's cases", "[causes]") {
+  const auto parts = [](const std::string& x, const std::string& y, const fuzz::Noise& noise) {
+    TwoExamined two(finding(x, "contact", "infeasible", "box-box", 9),
+                    finding(y, "contact", "infeasible", "box-box", 5));
+    fuzz::EnginePool pool([](const std::string& name) { return liar(name.substr(0, name.find('@'))); });
+    const Shape shapes[] = {Sphere{1}, Box{Vec3::Ones()}};
+    for (std::size_t i = 0; i < two.all.size(); ++i) {
+      fuzz::Representative& r = two.all[i];
+      const bool of_boxes = r.finding->engine.starts_with("depth_halved_boxes");
+      r.first.smallest = pair_case(shapes[of_boxes], shapes[of_boxes], Vec3(1.5, 0, 0), Question::contact);
+      const auto shown = fuzz::shown_by(r.finding->engine, r.first.smallest, r.symptom, pool);
+      REQUIRE(shown);
+      r.first.responses.deviation = *shown;
+    }
+    fuzz::Group g;
+    g.members = {0, 1};
+    const std::vector<double> rates(two.classes.size(), 0.0);
+    return fuzz::told_apart({g}, {two.classes, two.all, rates, two.knowledge, noise}, pool).size();
+  };
+  CHECK(parts("depth_halved", "depth_halved_boxes", {}) == 2);  // right about spheres
+  CHECK(parts("depth_halved", "depth_less_share", {}) == 2);    // wrong by another law
+  CHECK(parts("depth_halved", "depth_halved@later", {}) == 1);
+  // Where responses of one cause differ by chance, so do these.
+  CHECK(parts("depth_halved", "depth_halved_boxes", {{"depth_halved", 0.1}, {"depth_halved_boxes", 0.1}}) ==
+        1);
 }
 
 TEST_CASE("a cause is shown by a case with the gravest of its faults, which its title names", "[causes]") {

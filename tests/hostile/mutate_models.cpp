@@ -1,10 +1,14 @@
 // Damaged files of robots and worlds: elements, attributes and values removed, repeated and exchanged, and
 // bytes changed. A reader must accept the file, or refuse it with an error that names the damaged file,
-// quickly. ctest tries a few; by hand, in a build with AddressSanitizer, many:
+// quickly, and open nothing outside the folder: paths are made to lead to files beside it, which are watched.
+// ctest tries a few; by hand, in a build with AddressSanitizer, many:
 //   build/asan-ubsan/bin/mutate_models --seed 7 --count 1000000
+#include <fcntl.h>
+#include <sys/inotify.h>
 #include <sys/resource.h>
 #include <sys/time.h>
 #include <unistd.h>
+#include <algorithm>
 
 #include <array>
 #include <csignal>
@@ -67,6 +71,8 @@ Span element_at(const std::string& s, const std::vector<Span>& tags, std::size_t
   return tags[i];
 }
 
+constexpr std::string_view outside_name = "outside";
+
 std::string hostile_value(Rng& rng) {
   static const auto values = std::to_array<std::string>({"",
                                                          "nan",
@@ -74,15 +80,27 @@ std::string hostile_value(Rng& rng) {
                                                          "-1e308 1e308 1",
                                                          "0 0 0",
                                                          "0 0 0 0",
-                                                         "../../x.stl",
+                                                         "../outside/wedge.stl",
+                                                         "../outside/m.xml",
+                                                         "../../outside/wedge.stl",
+                                                         "meshes/../../outside/wedge.stl",
                                                          "/etc/passwd",
-                                                         "package://parts/../../x",
+                                                         "package://parts/../../outside/wedge.stl",
+                                                         "package://outside/wedge.stl",
+                                                         "package://../outside/wedge.stl",
+                                                         "link.stl",
+                                                         "link.xml",
+                                                         "linked/wedge.stl",
                                                          "file:///etc/passwd",
                                                          "99999999999999999999",
                                                          "-1",
+                                                         "3",
+                                                         "200",
+                                                         "100000",
                                                          "1e-320 1 1",
                                                          "world",
                                                          "base",
+                                                         "tip",
                                                          "&#0;",
                                                          "\xff\xfe",
                                                          "xyzxyz",
@@ -90,11 +108,22 @@ std::string hostile_value(Rng& rng) {
                                                          "plane",
                                                          "free",
                                                          "ball",
+                                                         "cos(s) s sin(s)",
                                                          "0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0",
+                                                         "replicas.xml",
+                                                         "arm.xml",
                                                          "m.xml",
                                                          "__model__",
                                                          "a::b::c"});
   return values[rng.below(values.size())];
+}
+
+// Strings in quotes, of JSON.
+std::string with_hostile_string(std::string s, Rng& rng) {
+  const std::size_t from = s.find('"', rng.below(s.size() + 1));
+  const std::size_t end = from == std::string::npos ? from : s.find('"', from + 1);
+  if (end == std::string::npos) return s;
+  return s.replace(from + 1, end - from - 1, hostile_value(rng));
 }
 
 std::string mutated_xml(std::string s, Rng& rng) {
@@ -134,15 +163,71 @@ std::string mutated_xml(std::string s, Rng& rng) {
 struct Good {
   std::string damaged, text, model;  // which file is damaged, its good text, and the file that is imported
   ImportOptions options;
+  bool is_included = false;  // then what it lacks may be noticed in the file that is imported
 };
+
+// The files that the good text includes or attaches: what is damaged may contradict one of them, and be
+// noticed there.
+std::vector<std::string> files_named_in(const std::string& text) {
+  static constexpr std::string_view before = "file=\"";
+  std::vector<std::string> files;
+  for (std::size_t at = text.find(before); at != std::string::npos; at = text.find(before, at + 1)) {
+    const std::size_t from = at + before.size();
+    files.push_back(text.substr(from, text.find('"', from) - from));
+  }
+  return files;
+}
 
 std::string said_about(const Good& g, const fs::path& folder) try {
   const ImportedModel m = import_model(folder / g.model, g.options);
   const Scene scene = scene_of(m);
   return scene_from_text(to_text(scene)) == scene ? "" : "the scene changes when it is written and read";
 } catch (const InputError& e) {
-  const bool names = std::string(e.what()).find(g.damaged) != std::string::npos && !e.reason().empty();
-  return names ? "" : std::string("the error does not name the file: ") + e.what();
+  const auto names = [&](const std::string& file) {
+    return std::string(e.what()).find(file) != std::string::npos;
+  };
+  const bool says_where = names(g.damaged) || (g.is_included && names(g.model)) ||
+                          std::ranges::any_of(files_named_in(g.text), names);
+  return says_where && !e.reason().empty() ? ""
+                                           : std::string("the error does not name the file: ") + e.what();
+}
+
+// The folder beside that of the models, and whether anything in it was opened.
+class Watched {
+ public:
+  explicit Watched(const fs::path& folder) : queue_(inotify_init1(IN_NONBLOCK | IN_CLOEXEC)) {
+    if (queue_ < 0 || inotify_add_watch(queue_, folder.c_str(), IN_OPEN) < 0) {
+      std::perror("inotify");
+      std::exit(1);
+    }
+  }
+  ~Watched() { close(queue_); }
+  Watched(const Watched&) = delete;
+  Watched& operator=(const Watched&) = delete;
+  bool was_opened() const {
+    alignas(inotify_event) char events[4096];
+    return read(queue_, events, sizeof events) > 0;
+  }
+
+ private:
+  int queue_;
+};
+
+// Files that paths may lead to, and links to them in the folder of the models. A watch that sees nothing
+// would prove nothing, so it is tried first.
+void make_outside(const fs::path& outside, const fs::path& folder) {
+  fs::create_directories(outside);
+  fs::copy_file(folder / "wedge.stl", outside / "wedge.stl");
+  fs::copy_file(folder / "every_geom.xml", outside / "m.xml");
+  fs::create_symlink(outside / "wedge.stl", folder / "link.stl");
+  fs::create_symlink(outside / "m.xml", folder / "link.xml");
+  fs::create_directory_symlink(outside, folder / "linked");
+  const Watched watch(outside);
+  std::ifstream(outside / "m.xml").get();
+  if (!watch.was_opened()) {
+    std::fprintf(stderr, "an opened file is not noticed\n");
+    std::exit(1);
+  }
 }
 
 std::uint64_t current = 0;  // for the handler
@@ -185,6 +270,13 @@ std::vector<Good> good_files(const fs::path& folder) {
                         {"nested.sdf", "", "nested.sdf", lenient},
                         {"table.scene", "", "table.scene", plain},
                         {"wedge.stl", "", "wedge.stl", plain},
+                        {"mjcf/replicas.xml", "", "mjcf/replicas.xml", plain},
+                        {"mjcf/replicas.xml", "", "mjcf/replicas.xml", lenient},
+                        {"mjcf/arm.xml", "", "mjcf/replicas.xml", plain, true},
+                        {"mjcf/defaults.xml", "", "mjcf/replicas.xml", plain, true},
+                        {"gltf/yard.gltf", "", "gltf/yard.gltf", plain},
+                        {"gltf/yard.gltf", "", "gltf/yard.gltf", lenient},
+                        {"gltf/yard.glb", "", "gltf/yard.glb", plain},
                         {"cell/arm7.urdf", "", "cell/arm7.urdf", plain},
                         {"cell/arm7.srdf", "", "cell/arm7.urdf", with_filters},
                         {"cell/table15.scene", "", "cell/table15.scene", plain},
@@ -199,18 +291,26 @@ std::vector<Good> good_files(const fs::path& folder) {
   return all;
 }
 
+std::string damaged_form(const Good& g, Rng& rng) {
+  if (g.text.starts_with("<") && rng.chance(0.8)) return mutated_xml(g.text, rng);
+  if (g.damaged.ends_with(".gltf") && rng.chance(0.3)) return with_hostile_string(g.text, rng);
+  return test::mutated(test::original_of(g.text), rng);
+}
+
 int run(std::uint64_t seed, std::uint64_t count, const fs::path& folder) {
   const std::vector<Good> all = good_files(folder);
+  const fs::path outside = folder.parent_path() / outside_name;
+  make_outside(outside, folder);
+  const Watched watch(outside);
   std::uint64_t accepted = 0;
   for (current = 0; current < count; ++current) {
     Rng rng = Rng::stream(seed, current);
     const Good& g = all[rng.below(all.size())];
-    const bool is_xml = g.text.starts_with("<");
-    const std::string text =
-        is_xml && rng.chance(0.8) ? mutated_xml(g.text, rng) : test::mutated(test::original_of(g.text), rng);
+    const std::string text = damaged_form(g, rng);
     std::ofstream(folder / g.damaged, std::ios::binary) << text;
     start_timer();
-    const std::string fault = said_about(g, folder);
+    std::string fault = said_about(g, folder);
+    if (watch.was_opened()) fault = "a file outside the folder was opened; " + fault;
     std::ofstream(folder / g.damaged, std::ios::binary) << g.text;
     if (!fault.empty()) {
       const std::string kept = "failed-" + fs::path(g.damaged).filename().string();
@@ -221,7 +321,7 @@ int run(std::uint64_t seed, std::uint64_t count, const fs::path& folder) {
     }
     ++accepted;
   }
-  std::printf("%llu damaged files: each read, or refused by name\n",
+  std::printf("%llu damaged files: each read, or refused by name; none outside the folder was opened\n",
               static_cast<unsigned long long>(accepted));
   return accepted == count && count > 0 ? 0 : 1;
 }
@@ -236,9 +336,9 @@ int main(int argc, char** argv) {
     if (std::strcmp(argv[i], "--count") == 0) count = value;
   }
   std::signal(SIGPROF, on_timer);
-  const fs::path folder = fs::temp_directory_path() / ("touchstone-models-" + std::to_string(getpid()));
-  fs::create_directories(folder);
-  const int code = run(seed, count, folder);
-  fs::remove_all(folder);
+  const fs::path top = fs::temp_directory_path() / ("touchstone-models-" + std::to_string(getpid()));
+  fs::create_directories(top / "models");
+  const int code = run(seed, count, top / "models");
+  fs::remove_all(top);
   return code;
 }

@@ -83,3 +83,26 @@ TEST_CASE("docs refuses bad options and directories that it did not write", "[pa
   CHECK(refused.err.find("not written by this command") != std::string::npos);
   CHECK(fs::exists(w.dir / "file"));
 }
+
+TEST_CASE("the page of each engine is what docs/engine_pages.py writes", "[packages][optional]") {
+  for (const char* plugin : {"fcl", "bullet_f64", "libccd", "ode"})
+    if (!fs::exists(TS_BINARY_DIR "/lib/libtouchstone_" + std::string(plugin) + ".so"))
+      return touchstone::test::skip(std::string(plugin) + " is not built");
+  if (!has_command("python3")) return touchstone::test::skip("python3 is not installed");
+  const Workspace w("engine-pages");
+  const Run made =
+      w.run("TOUCHSTONE_ENGINES=none " TS_BINARY_DIR "/bin/touchstone engines --json | python3 " TS_SOURCE_DIR
+            "/docs/engine_pages.py pages");
+  INFO(made.err);
+  REQUIRE(made.code == 0);
+  std::size_t compared = 0;
+  for (const auto& entry : fs::directory_iterator(w.dir / "pages")) {
+    const fs::path stored = fs::path(TS_SOURCE_DIR "/docs/engines") / entry.path().filename();
+    INFO(stored << ": ./touchstone engines --json | docs/engine_pages.py");
+    CHECK(touchstone::test::read_all(stored) == touchstone::test::read_all(entry.path()));
+    ++compared;
+  }
+  CHECK(compared == 10);
+  for (const auto& entry : fs::directory_iterator(TS_SOURCE_DIR "/docs/engines"))
+    CHECK(fs::exists(w.dir / "pages" / entry.path().filename()));
+}

@@ -191,3 +191,30 @@ TEST_CASE("the outer box holds the body and is tight to rounding", "[referee]") 
   REQUIRE(h.hi.z() == std::numeric_limits<double>::infinity());
   REQUIRE(cases == 2000);
 }
+
+// A whole arc of directions is equally good: for an inner polytope alone the brackets were 1e-6 wide.
+TEST_CASE("brackets are narrow where a feature lies on the axis of a body of revolution",
+          "[referee][width]") {
+  Rng r(77);
+  for (int i = 0; i < 40; ++i) {
+    const double radius = r.uniform(0.5, 2), half = r.uniform(1, 3), at = r.uniform(-0.2, 0.2);
+    const Pose placed{r.unit_vector(), Quat{}};
+    // The end of a capsule that lies across, and a corner of a flat hull.
+    const double reach = r.uniform(0.1, 0.4);
+    const Shape cylinder = Cylinder{radius, 2 * radius + half}, capsule = Capsule{reach, half};
+    const Shape cone = Cone{radius, 2 * half},
+                tip = make_hull({Vec3(0, 0, at), Vec3(3, 0, at), Vec3(3, 2, at)});
+    const Pose across{placed.translation + Vec3(half, 0, at), Quat{0, 1, 0, 1}};
+    INFO(i);
+    const PairTruth t = judge_pair({&cylinder, placed}, {&capsule, across});
+    CHECK(t.gap.hi - t.gap.lo <= 1e-14 * (half + radius));
+    CHECK(t.gap.lo <= -(radius + reach) * (1 - 1e-15));
+    CHECK(t.gap.hi >= -(radius + reach) * (1 + 1e-15));
+
+    const PairTruth c = judge_pair({&cone, placed}, {&tip, placed});
+    const double depth = (2 * half - at) * radius / std::sqrt(radius * radius + 16 * half * half);
+    CHECK(c.gap.hi - c.gap.lo <= 1e-14 * (half + radius));
+    CHECK(c.gap.lo <= -depth * (1 - 1e-14));
+    CHECK(c.gap.hi >= -depth * (1 + 1e-14));
+  }
+}

@@ -130,7 +130,8 @@ TEST_CASE("rates are systematic from 30 % and a corner case below 1 %", "[causes
   CHECK(says(29, 100) == "29 of 100 wrong (29 %)");
   CHECK(says(1, 100) == "1 of 100 wrong (1.0 %)");
   CHECK(says(1, 101) == "1 of 101 wrong (1.0 %): corner case");
-  CHECK(says(1, 1) == "1 of 1 wrong (100 %): systematic");
+  CHECK(says(9, 9) == "9 of 9 wrong (100 %)");  // too few to call it either
+  CHECK(says(10, 10) == "10 of 10 wrong (100 %): systematic");
   CHECK(says(3, 0) == "3 wrong answers");
   CHECK(reports::share_text(0) == "0 %");
   CHECK(reports::share_text(0.0004) == "<0.1 %");

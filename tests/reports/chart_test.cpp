@@ -437,6 +437,31 @@ TEST_CASE("a swept setting reaches libccd", "[cli][chart][optional]") {
   CHECK(corpus_answer(deep, "libccd-gjk-iterations@128", "contact")["outcome"] == "answered");
 }
 
+TEST_CASE("stability follows motions, and the motion of a scenario", "[cli][stability]") {
+  const Workspace w("motions");
+  const auto all = w.touchstone("stability --motions --count 1 --frames 4 --engines core --out m");
+  INFO(all.out << all.err);
+  CHECK(all.code == 0);
+  std::istringstream lines(all.out);
+  for (std::string line; std::getline(lines, line);)
+    CHECK((line.size() <= 80 || line.starts_with("exit code")));
+  const Json motions = Json::parse(read_all(w.dir / "m/motions.json"));
+  CHECK(motions["results"].size() == motions["rows"].size());
+  for (const Json& r : motions["results"]) {
+    CHECK(r["frames"] == 4);
+    CHECK(r["state_asked"] > 0);  // the worker of the core can be replaced
+    CHECK(r["state_differs"] == 0);
+  }
+  CHECK(read_all(w.dir / "m/motions.csv").starts_with("motion,engine,motions,frames,answers"));
+  const auto one = w.touchstone("stability --motion slides_off_a_table --engines core --json --out o");
+  CHECK(one.code == 0);
+  CHECK(Json::parse(one.out)["results"][0]["switches"] == 1);
+  const auto none = w.touchstone("stability --motion drake-1668-cubes-corner-overlap --engines core --out n");
+  CHECK(none.code == 2);
+  CHECK(none.err.find("is no motion") != std::string::npos);
+  CHECK(w.touchstone("stability --motion nothing --engines core --out n").code == 2);
+}
+
 TEST_CASE("chart and stability write text, CSV and JSON, with or without a page", "[cli][chart]") {
   const Workspace w("chart");
   const auto s = w.touchstone("stability --quick --ladder angle --engines core --out s");

@@ -9,6 +9,7 @@
 #include <regex>
 #include <sstream>
 
+#include "core/base/input_error.h"
 #include "core/shape/shape.h"
 #include "reports/text/causes_text.h"
 #include "reports/text/web_page.h"
@@ -30,7 +31,7 @@ const fs::path built = TS_BINARY_DIR "/share/touchstone/web";
 // Empty when everything that a browser test needs is present.
 std::string missing_for_browser() {
   for (const char* kind :
-       {"assess", "broad", "case", "causes", "report", "chart", "stability", "certificate"})
+       {"assess", "broad", "case", "causes", "report", "chart", "stability", "certificate", "index"})
     if (!fs::exists(built / (std::string(kind) + ".html"))) return "the built pages";
   if (!fs::exists(TS_BINARY_DIR "/web/node_modules/playwright-core")) return "playwright-core";
   if (!touchstone::test::has_command("node")) return "node";
@@ -146,6 +147,7 @@ TEST_CASE("pages load, show the numbers of their JSON, draw, move and link in a 
              "/lib/libtouchstone_mutants.so:stale_after_move --level boxes --without no_boxes --limit 2000 "
              "-o refuted.json --page refuted.html")
             .code == 1);
+  REQUIRE(w.touchstone("open .").code == 0);
   const std::string pictures = pictures_directory();
   const auto node =
       w.run("node " TS_BINARY_DIR "/web/test/pages.mjs /usr/bin/chromium " + w.dir.string() + " " + pictures);
@@ -290,6 +292,32 @@ TEST_CASE("long data is stored in a page compressed and decompresses to the same
     json.insert(1, "1,");
   }
   CHECK_THROWS(web_page("no place", "{}"));
+}
+
+TEST_CASE("the data of a page is read back as it was, and damaged data is refused", "[pages]") {
+  using namespace touchstone;
+  using namespace touchstone::reports;
+  const std::string shell =
+      "<div></div><script id=\"data\" "
+      "type=\"application/json\">__TOUCHSTONE_DATA__</script><script></script>";
+  std::string json = "[0";
+  for (int i = 1; json.size() < compressed_from; ++i) json += "," + std::to_string(i * 7919 % 10007);
+  json += "]";
+  for (int cut = 0; cut < 3; ++cut) {
+    CHECK(data_of_page(web_page(shell, json), "x").value() == json);
+    json.insert(1, "1,");
+  }
+  CHECK(Json::parse(data_of_page(web_page(shell, R"(["</script>"])"), "x").value())[0] == "</script>");
+  CHECK_FALSE(data_of_page("<html></html>", "x").has_value());
+  const std::string page = web_page(shell, json);
+  CHECK_THROWS_AS(data_of_page(page, "x", json.size() - 1), InputError);
+  CHECK_THROWS_AS(data_of_page(page.substr(0, page.size() / 2), "x"), InputError);
+  const std::size_t at = page.find("deflate") + 100;
+  for (const char* wrong : {"!", "AAAAAAAA", "="}) {
+    std::string damaged = page;
+    damaged.replace(at, std::string(wrong).size(), wrong);
+    CHECK_THROWS_AS(data_of_page(damaged, "x"), InputError);
+  }
 }
 
 TEST_CASE("report refuses a directory that is not a campaign", "[pages][cli]") {

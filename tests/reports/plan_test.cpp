@@ -2,6 +2,7 @@
 #include "reports/plan/plan.h"
 
 #include <cmath>
+#include <map>
 
 #include "core/base/input_error.h"
 #include "core/math/rng.h"
@@ -126,6 +127,71 @@ TEST_CASE("the candidates for a looser error include those for a tighter one", "
   CHECK(p.run["error"].get<double>() <= 1e-2);
 }
 
+namespace {
+
+// The pairs that a plan reports at the end of a course's last step, with their gaps if it states them.
+std::map<BodyPair, std::optional<double>> reported_last(const Course& course, const Fidelity& f) {
+  std::map<BodyPair, std::optional<double>> pairs;
+  run_course(course, f, [&](int, const StepReport& r) {
+    pairs.clear();
+    for (const PairContact& c : r.contacts) pairs[{c.a, c.b}] = -c.contact.depth;
+    for (const PairNear& n : r.near) pairs[{n.a, n.b}] = n.gap;
+  });
+  return pairs;
+}
+
+}  // namespace
+
+TEST_CASE("plans about a margin report the pairs within it, and those for verdicts nothing else", "[plan]") {
+  const Course course = course_of(heap(24));
+  PlanOptions o = quick(1e-3);
+  o.margin = 0.1;
+  o.verdict_only = GENERATE(false, true);
+  const Plan p = make_plan(course, o);
+  CHECK(plan_row(p).outside == 0);
+  CHECK(p.run.at("margin") == 0.1);
+  const Fidelity f = fidelity_from_json(p.run, "run");
+  CHECK(f.margin == 0.1);
+  CHECK(f.verdict_only == o.verdict_only);
+  const auto reported = reported_last(course, f);
+  const EndPoses poses = end_poses(course);
+  std::size_t near = 0;
+  for (int b = 0; b < 25; ++b)
+    for (int a = 0; a < b; ++a) {
+      const auto placed = [&](int i) {
+        return PlacedShape(&course.scene.shape_of(i), poses.back()[static_cast<std::size_t>(i)]);
+      };
+      const double gap = distance(placed(a), placed(b)).distance;
+      const auto it = reported.find({a, b});
+      INFO(a << " " << b << " " << gap);
+      if (it == reported.end()) {
+        CHECK(gap > 0.1 - 1e-3);
+        continue;
+      }
+      CHECK(gap <= 0.1 + 1e-3);
+      CHECK(it->second.has_value() != o.verdict_only);
+      if (it->second && gap > 0) CHECK(std::abs(*it->second - gap) <= 1e-3);
+      near += gap > 0;
+    }
+  CHECK(near >= 5);
+  CHECK(reports::plan_text(p).find("Asked: which pairs are within") != std::string::npos);
+}
+
+TEST_CASE("the referee detects that pairs within the margin are left out", "[plan]") {
+  const Course course = course_of(heap(24));
+  const EndPoses poses = end_poses(course);
+  constexpr double margin = 0.1;
+  const PlanSample sample(course, poses, course_candidates(course, poses, margin), 1, 24, margin);
+  PlanRow left_out, full;
+  Fidelity f;
+  f.error = 1e-3;
+  run_course(course, f, [&](int step, const StepReport& r) { sample.judge(step, r, 1e-3, left_out); });
+  CHECK(left_out.outside > 0);
+  f.margin = margin;
+  run_course(course, f, [&](int step, const StepReport& r) { sample.judge(step, r, 1e-3, full); });
+  CHECK(full.outside == 0);
+}
+
 TEST_CASE("a plan that was edited by hand is refused", "[plan]") {
   const Course course = course_of(heap(4));
   PlanOptions o = quick(0);
@@ -167,6 +233,8 @@ TEST_CASE("a plan refuses what it cannot prove or run", "[plan]") {
            {"broad_phase", "none"},
            {"methods", {{"box-cube", {{"balls_first", true}, {"arithmetic", "float"}}}}},
            {"simpler", {{"of_shape", {0}}, {"error", {0.5}}}},
+           {"margin", -0.5},
+           {"verdict_only", 1},
            {"sweep_share", "half"}}) {
     Json bad = good;
     bad[key] = value;

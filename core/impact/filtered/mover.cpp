@@ -51,11 +51,13 @@ Mover make_mover(const ShapeRef& shape, const WideMat& rotation, const Motion& m
   return m;
 }
 
-Mover make_points(std::span<const Vec3> points, const WideMat& rotation) {
+Mover make_points(std::span<const Vec3> points, const WideMat& rotation, const Motion& motion) {
   Mover m;
   m.body = body_of_vertices<double>(points);
   m.start_wide = rotation;
   m.start = rotation.cast<double>();
+  m.linear = motion.linear;
+  set_turn(m, motion.angular);
   return m;
 }
 

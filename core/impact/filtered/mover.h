@@ -32,8 +32,8 @@ WideMat rotation_of(const Quat& q);
 /// Precondition: a bounded convex shape. A body whose core is a point does not rotate.
 Mover make_mover(const ShapeRef& shape, const WideMat& rotation, const Motion& motion);
 
-/// A triangle, or any few points, at rest. The points must outlive the mover.
-Mover make_points(std::span<const Vec3> points, const WideMat& rotation);
+/// A triangle, or any few points. The points must outlive the mover.
+Mover make_points(std::span<const Vec3> points, const WideMat& rotation, const Motion& motion = {});
 
 /// Rotation at time t. `precise`: computed in extended precision and rounded once.
 Mat rotation_at(const Mover& m, double t, bool precise);

@@ -201,8 +201,6 @@ class Epa : Polytope<Epa<R>, EpaTypes<R>> {
     return heap_.empty() ? -1 : heap_.top().second;
   }
 
-  static R square(R x) { return x * x; }
-
   void set_witness(const Facet& x) {
     Foot<R> near = nearest(x);
     if (near.size == 3) refine_weights<R>(w(x.v[0]), w(x.v[1]), w(x.v[2]), near.point, near.weight.data());
@@ -215,13 +213,18 @@ class Epa : Polytope<Epa<R>, EpaTypes<R>> {
     }
   }
 
-  // Where several facets share the nearest plane, the origin may project outside the current one.
-  int nearest_facet() const {
-    int best = 0;
-    R least = infinite;
-    for (int i = 0; i < facet_count(); ++i) {
+  // The ball of radius `lower` lies in the surface, and `upper` bounds it along the outward direction: the
+  // ray of that direction leaves it through a facet whose foot is its end up to the root of tolerance ·
+  // length. Other facets may be as near: those of another direction of the same depth, and of the same plane
+  // beside it. Facet `first` is tried first.
+  int facet_of_ray(int first) const {
+    const V3<R> end = -result_.upper * result_.normal;
+    const auto apart = [&](int i) { return R((nearest(facet(i)).point - end).squaredNorm()); };
+    int best = first;
+    R least = apart(first);
+    for (int i = 0; i < facet_count() && !(least <= 2 * tolerance_ * (result_.upper + tolerance_)); ++i) {
       if (!facet(i).alive) continue;
-      if (const R d = nearest(facet(i)).dist_sq; d < least) {
+      if (const R d = apart(i); d < least) {
         least = d;
         best = i;
       }
@@ -237,7 +240,7 @@ class Epa : Polytope<Epa<R>, EpaTypes<R>> {
         result_.upper = x.upper;
         result_.normal = -x.n;
       }
-      set_witness(nearest(x).dist_sq <= square(abs(x.plane) + tolerance_) ? x : facet(nearest_facet()));
+      set_witness(facet(facet_of_ray(f)));
     }
     result_.status = status;
     result_.iterations = vertex_count();

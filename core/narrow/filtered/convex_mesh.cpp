@@ -119,6 +119,7 @@ class MeshQuery {
 
 template <class R>
 void convex_mesh(const PlacedShape& a, const PlacedShape& b, Asked asked, Answer<R>& r, PairScene<R>& s) {
+  s.features = nullptr;  // they would be those of the last triangle
   MeshQuery<R>(a, b, asked, r, s).run(b.tree());
   // The triangle's corners no longer exist.
   s.b = {};

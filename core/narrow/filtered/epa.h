@@ -24,6 +24,8 @@ struct Depth {
   R upper = std::numeric_limits<R>::infinity(), lower = 0;
   V3<R> outward = V3<R>::UnitX();              // unit; A to B is its opposite
   V3<R> a = V3<R>::Zero(), w = V3<R>::Zero();  // foot w of the origin, and its point of A
+  bool on_facet = false;                       // `corner` is set:
+  std::array<Vertex<R>, 3> corner;             // of the facet that contains the foot
   int vertices = 0;
 };
 
@@ -266,14 +268,19 @@ class Expander : Polytope<Expander<R>, ExpanderTypes<R>> {
     result_.end = end;
     result_.vertices = vertex_count();
     if (f < 0) return result_;
-    // Where several facets share the plane, the origin may project outside the current one.
-    Foot<R> best = foot_of(f);
-    int where = f;
+    // The ball of radius `lower` lies in the surface, and `upper` bounds it along `outward`: the ray of that
+    // direction leaves it through a facet whose foot is its end up to the root of tolerance · length. Other
+    // facets may be as near: those of another direction of the same depth, and of the same plane beside it.
+    const V3<R> end_of_ray = result_.upper * result_.outward;
     const R enough = result_.upper + tolerance_;
-    for (int i = 0; i < facet_count() && !(best.dist_sq <= enough * enough); ++i)
+    Foot<R> best = foot_of(f);
+    R apart = (best.point - end_of_ray).squaredNorm();
+    int where = f;
+    for (int i = 0; i < facet_count() && !(apart <= 2 * tolerance_ * enough); ++i)
       if (key_[i] <= enough)
-        if (const Foot<R> foot = foot_of(i); foot.dist_sq < best.dist_sq) {
+        if (const Foot<R> foot = foot_of(i); (foot.point - end_of_ray).squaredNorm() < apart) {
           best = foot;
+          apart = (foot.point - end_of_ray).squaredNorm();
           where = i;
         }
     result_.w.setZero();
@@ -284,6 +291,11 @@ class Expander : Polytope<Expander<R>, ExpanderTypes<R>> {
       result_.w += best.weight[c] * w(v);
       result_.a += best.weight[c] * on_a(v);
     }
+    for (std::size_t k = 0; k < 3; ++k) {
+      const short v = facet(where).v[k];
+      result_.corner[k] = {w(v), on_a(v)};
+    }
+    result_.on_facet = true;
     return result_;
   }
 

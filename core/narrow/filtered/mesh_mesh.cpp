@@ -120,6 +120,7 @@ class MeshesQuery {
 
 template <class R>
 void mesh_mesh(const PlacedShape& a, const PlacedShape& b, Asked asked, Answer<R>& r, PairScene<R>& s) {
+  s.features = nullptr;  // they would be those of the last pair of triangles
   MeshesQuery(a, b, r, s).run(asked);
   // The triangles' corners no longer exist.
   s.a = s.b = {};

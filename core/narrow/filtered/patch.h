@@ -41,16 +41,17 @@ struct PatchPlane {
   explicit PatchPlane(const V3<R>& normal) : n(normal), x(normal.unitOrthogonal()), y(normal.cross(x)) {}
 };
 
-/// Corners of `c` at most `limit` below its support plane along d (in its own frame, unit), into `out`, which
-/// is empty.
+/// Corners of `c` at most `limit` below its support plane, into `out`, which is empty. `at`: of c in A's
+/// frame; null: c is A. `support`: a support point of c along sign · n, both in its own frame.
 template <class R>
 class FeatureCorners {
  public:
-  FeatureCorners(const ConvexBody<R>& c, const M3<R>& to_a, const V3<R>& offset, const PatchPlane<R>& plane,
-                 R sign, R limit, R tolerance, Corners<R>& out)
-      : c_(c), to_a_(to_a), offset_(offset), plane_(plane), out_(out) {
-    at_.d = to_a.transpose() * (sign * plane.n);
-    at_.top = at_.d.dot(support_local<R>(c, at_.d));
+  FeatureCorners(const ConvexBody<R>& c, const Relative<R>* at, const PatchPlane<R>& plane, R sign,
+                 const V3<R>& support, R limit, R tolerance, Corners<R>& out)
+      : c_(c), placed_(at), plane_(plane), support_(support), out_(out) {
+    const V3<R> d = sign * plane.n;
+    at_.d = at ? V3<R>(at->b_to_a.transpose() * d) : d;
+    at_.top = at_.d.dot(support);
     at_.limit = limit;
     at_.tolerance = tolerance;
   }
@@ -61,7 +62,7 @@ class FeatureCorners {
       if (outline::turn(out_[0], out_[1], out_[2]) < 0) std::reverse(out_.begin(), out_.end());
       return;
     }
-    if (out_.size == 0 && !out_.overflow) add_certain(support_local<R>(c_, at_.d), 0);
+    if (out_.size == 0 && !out_.overflow) add_certain(support_, 0);
     outline::convex_order(out_, at_.tolerance);
   }
 
@@ -69,7 +70,7 @@ class FeatureCorners {
     if (at_.top - at_.d.dot(p) <= at_.limit) add_certain(p, id);
   }
   void add_certain(const V3<R>& p, std::uint32_t id) {
-    const V3<R> q = to_a_ * p + offset_ - plane_.origin;
+    const V3<R> q = (placed_ ? V3<R>(placed_->b_to_a * p + placed_->offset) : p) - plane_.origin;
     out_.add({plane_.x.dot(q), plane_.y.dot(q), std::max<R>(0, at_.top - at_.d.dot(p)), id, 0});
   }
   // Keeps their outline. If it has more corners than fit, every other one is kept: 36 corners of a circle
@@ -85,9 +86,9 @@ class FeatureCorners {
 
  private:
   const ConvexBody<R>& c_;
-  const M3<R>& to_a_;
-  const V3<R>& offset_;
+  const Relative<R>* placed_;
   const PatchPlane<R>& plane_;
+  const V3<R>& support_;
   convex::FaceQuery<R> at_;
   Corners<R>& out_;
 };
@@ -118,15 +119,14 @@ Patch<R> contact_patch(const ConvexBody<R>& a, const ConvexBody<R>* b, const Rel
   const R size = a.reach + a.radius + (b ? b->reach + b->radius + at.offset.norm() : 0);
   const R tolerance = rounding::corner_distance * u<R> * size, depth = std::max<R>(0, -gap);
   PatchPlane<R> plane(n);
-  const V3<R> top = support_local<R>(a, n);
-  plane.origin = top;
-  const M3<R> identity = M3<R>::Identity();
-  const V3<R> zero = V3<R>::Zero();
+  const V3<R> top_a = support_local<R>(a, n);
+  const V3<R> top_b = b ? support_local<R>(*b, V3<R>(at.b_to_a.transpose() * -n)) : top_a;
+  plane.origin = top_a;
   const auto show_a = [&](R limit, Corners<R>& out) {
-    FeatureCorners<R>(a, identity, zero, plane, 1, limit, tolerance, out).collect();
+    FeatureCorners<R>(a, nullptr, plane, 1, top_a, limit, tolerance, out).collect();
   };
   const auto show_b = [&](R limit, Corners<R>& out) {
-    FeatureCorners<R>(*b, at.b_to_a, at.offset, plane, -1, limit, tolerance, out).collect();
+    FeatureCorners<R>(*b, &at, plane, -1, top_b, limit, tolerance, out).collect();
   };
   Patch<R> patch;
   Corners<R> fa, fb, region;
@@ -155,7 +155,7 @@ Patch<R> contact_patch(const ConvexBody<R>& a, const ConvexBody<R>* b, const Rel
     const V3<R> p = plane.origin + plane.x * x + plane.y * y + n * height;
     const R d = -gap - below_a - below_b;
     for (int k = 0; k < patch.size; ++k)
-      if ((patch.point[static_cast<std::size_t>(k)].p - p).norm() <= tolerance) return k;
+      if ((patch.point[static_cast<std::size_t>(k)].p - p).squaredNorm() <= tolerance * tolerance) return k;
     patch.point[static_cast<std::size_t>(patch.size)] = {p, std::max<R>(0, d), id};
     return patch.size++;
   };

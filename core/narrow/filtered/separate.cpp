@@ -7,6 +7,7 @@
 #include "core/narrow/filtered/box_box.h"
 #include "core/narrow/filtered/box_capsule.h"
 #include "core/narrow/filtered/epa.h"
+#include "core/narrow/filtered/recall.h"
 #include "core/narrow/filtered/revolved.h"
 
 namespace touchstone::narrow::filtered {
@@ -72,6 +73,7 @@ void from_gjk(const GjkResult<R>& g, R error, Answer<R>& r, PairScene<R>& s) {
   s.has_middle = true;
 }
 
+// The depth in `e` (Depth, Revolved, RecalledDepth).
 template <class R, class D>
 void from_depth(const D& e, R error, Answer<R>& r, PairScene<R>& s) {
   s.normal = r.normal = -e.outward;
@@ -102,6 +104,18 @@ void from_flat(const GjkResult<R>& g, const Depth<R>& e, R size, R error, Answer
   r.bound = error + e.upper + rounding::feature_height * u<R> * size;
   s.middle = (r.a + r.b) / 2;
   s.has_middle = true;
+}
+
+// Whether the remembered features have the least depth still; then that is the answer, in A's frame.
+template <class R>
+bool is_recalled(const Difference<R>& d, R size, R tolerance, R error, Answer<R>& r, PairScene<R>& s) {
+  if (!s.features || s.features->corner[0][0] < 0) return false;
+  const RecalledDepth<R> e(d, *s.features, s.guess, size, tolerance);
+  if (!e.proven) return false;
+  r.valued = true;
+  from_depth(e, error, r, s);
+  s.guess = s.normal;
+  return true;
 }
 
 // Searches square areas: fourth powers of lengths. Bodies for which these would leave the range of R are
@@ -155,6 +169,8 @@ void separate_cores(const RoundedPose<R>& a, const RoundedPose<R>& b, Asked aske
     if (const R exact = s.a.reach + s.b.reach + s.at.offset.stableNorm(); exact > 0)
       return separate_scaled(a, b, asked, enough, exact, r, s);
   const R tolerance = accuracy(local_scale(s)) / 8;
+  if (asked != Asked::overlap && is_recalled(d, size, tolerance, error, r, s))
+    return to_world(r, s, scale(s.a, s.b, a, b), asked);
   const R certain = error + radii + (asked == Asked::distance ? std::max<R>(0, enough) : R(0));
   const GjkResult<R> g = gjk<R>(d, tolerance, certain, size, s.guess);
   s.guess = g.normal;
@@ -182,6 +198,7 @@ void separate_cores(const RoundedPose<R>& a, const RoundedPose<R>& b, Asked aske
         from_flat(g, depth, size, error, r, s);
       else
         from_depth(depth, error, r, s);
+      if (s.features && depth.on_facet) *s.features = touching_features(d, depth);
     }
     s.guess = s.normal;
   } else {

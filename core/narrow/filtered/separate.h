@@ -24,6 +24,8 @@ struct PairScene {
   ContactForm contact = ContactForm::point;
   /// A's frame: in, the initial direction of a search, or zero; out, its final direction.
   V3<R> guess = V3<R>::Zero();
+  /// In: where two polytopes touched in an earlier query; out: where they do. Null: nobody asks.
+  TouchingFeatures* features = nullptr;
 };
 
 template <class R>

@@ -19,8 +19,17 @@ std::optional<Case> stop_turning(const Case& c) {
   return r;
 }
 
+namespace {
+
+// Of two bodies: candidates of moving bodies name none.
+bool is_about_impact(const Case& c) {
+  return asks_about_pair(c) && is_motion_question(c.queries[0].question);
+}
+
+}  // namespace
+
 std::optional<Case> move_b_only(const Case& c) {
-  if (c.queries.empty() || !is_motion_question(c.queries[0].question)) return std::nullopt;
+  if (!is_about_impact(c)) return std::nullopt;
   Case r = c;
   Body& a = r.scene.bodies[static_cast<std::size_t>(c.queries[0].a)];
   Body& b = r.scene.bodies[static_cast<std::size_t>(c.queries[0].b)];
@@ -33,10 +42,6 @@ std::optional<Case> move_b_only(const Case& c) {
 }
 
 namespace {
-
-bool is_about_impact(const Case& c) {
-  return !c.queries.empty() && is_motion_question(c.queries[0].question);
-}
 
 Vec3 velocity(const Case& c, int body) {
   const auto& motion = c.scene.bodies[static_cast<std::size_t>(body)].motion;
@@ -128,6 +133,37 @@ std::optional<Case> stop_turning_a(const Case& c) { return without_turning(c, fa
 std::optional<Case> stop_turning_b(const Case& c) { return without_turning(c, true); }
 std::optional<Case> let_a_turn(const Case& c) { return with_body_turning(c, false); }
 std::optional<Case> let_b_turn(const Case& c) { return with_body_turning(c, true); }
+
+namespace {
+
+bool is_about_sweep(const Case& c) {
+  return !c.queries.empty() && c.queries[0].question == Question::swept_candidates;
+}
+
+}  // namespace
+
+std::optional<Case> travel_twice_as_far(const Case& c) {
+  if (!is_about_sweep(c)) return std::nullopt;
+  Case r = c;
+  for (Body& b : r.scene.bodies)
+    if (b.motion) b.motion->linear *= 2;
+  return r;
+}
+
+std::optional<Case> as_turning_bar(const Case& c) {
+  if (!is_about_sweep(c)) return std::nullopt;
+  Case r = c;
+  r.scene.shapes = {Box{Vec3::Ones()}, Box{Vec3(4, 0.25, 0.25)}};
+  r.scene.bodies = {Body{}, Body{}};
+  r.queries.resize(1);
+  r.scene.script.clear();
+  r.scene.ignored.clear();
+  Body& bar = r.scene.bodies[1];
+  bar.shape = 1;
+  bar.pose.translation.y() = 3;
+  bar.motion = Motion{Vec3::Zero(), Vec3(0, 0, 1.5)};  // by nearly a quarter turn
+  return r;
+}
 
 std::optional<Case> release_static(const Case& c) {
   Case r = c;

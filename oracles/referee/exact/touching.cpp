@@ -7,6 +7,7 @@
 
 #include "oracles/checker/checker.h"
 #include "oracles/referee/exact/rational.h"
+#include "oracles/referee/filter/convex.h"
 #include "oracles/referee/filter/real3.h"
 #include "oracles/referee/limits.h"
 
@@ -29,6 +30,41 @@ bool is_outside(const Placed& body, const Vec3& rounded) {
 
 }  // namespace
 
+Holder::Holder(const Placed& p) : whole_(p) {
+  const auto* mesh = std::get_if<TriangleMesh>(p.shape);
+  if (!mesh) return;
+  const Frame frame = frame_of(p, Vec3::Zero());
+  for (const auto& t : mesh->triangles) {
+    std::vector<Vec3> corners;
+    for (const int k : t) corners.push_back(mesh->vertices[static_cast<std::size_t>(k)]);
+    boxes_.push_back(box_of(make_body(corners, 0, frame)));
+  }
+}
+
+std::optional<Placed> Holder::part_at(const Vec3& rounded) {
+  if (boxes_.empty()) return whole_;
+  Aabb about;
+  for (const double side : {-1.0, 1.0}) {
+    Vec3 x = rounded;
+    for (double& e : x) e = std::nextafter(e, side * std::numeric_limits<double>::infinity());
+    about.extend(x);
+  }
+  const auto& mesh = std::get<TriangleMesh>(*whole_.shape);
+  TriangleMesh near;
+  for (std::size_t i = 0; i < boxes_.size(); ++i)
+    if (overlaps(about, boxes_[i])) near.triangles.push_back(mesh.triangles[i]);
+  if (near.triangles.empty()) return std::nullopt;
+  near.vertices = mesh.vertices;
+  part_ = std::move(near);
+  return Placed{&part_, whole_.pose};
+}
+
+bool is_common_point(const Certificate& c, Holder& a, Holder& b) {
+  const auto x = a.part_at(c.point);
+  const auto y = x ? b.part_at(c.point) : std::nullopt;
+  return y && checker::check(c, *x, *y);
+}
+
 Certificate guess_common_point(const std::array<Vec3, 2>& witness, const Placed& a, const Placed& b,
                                int& level) {
   const Vec3 middle = witness[0] + 0.5 * (witness[1] - witness[0]);
@@ -39,6 +75,7 @@ Certificate guess_common_point(const std::array<Vec3, 2>& witness, const Placed&
     if (const double r = bounding_radius(*p.shape); std::isfinite(r)) size = std::max(size, r);
   Certificate c;
   c.kind = Certificate::Kind::common_point;
+  Holder holds_a(a), holds_b(b);
   std::vector<double> steps{0};  // the unchanged witness comes first
   steps.insert(steps.end(), std::begin(limits::guess_factors), std::end(limits::guess_factors));
   for (const double step : steps)
@@ -60,7 +97,7 @@ Certificate guess_common_point(const std::array<Vec3, 2>& witness, const Placed&
           return c;
         }
       }
-      if (!is_outside(a, c.point) && !is_outside(b, c.point) && checker::check(c, a, b)) {
+      if (!is_outside(a, c.point) && !is_outside(b, c.point) && is_common_point(c, holds_a, holds_b)) {
         level = 2;
         return c;
       }

@@ -4,6 +4,7 @@
 
 #include "oracles/referee/counters.h"
 #include "oracles/referee/filter/minkowski.h"
+#include "oracles/referee/filter/part_bound.h"
 #include "oracles/referee/filter/wide_search.h"
 #include "oracles/referee/limits.h"
 #include "oracles/referee/work.h"
@@ -35,11 +36,20 @@ void take_witness(ConvexTruth& t, const Difference& d, const Simplex& s) {
   t.witness_b = t.witness_b - static_cast<Real>(d.b.radius) * t.normal;
 }
 
-// If rounded signs stall or hit the cap, retries with exact ones and four times as many facets.
-EpaResult grow(const Difference& d, const GjkResult& g, Real target, int cap) {
+// `known`: a bracket of the same gap, which parts of curved bodies may narrow; with `for_certificate` the
+// polytope has to prove it by itself. If rounded signs stall or hit the cap, and the bracket is still open,
+// retries with exact ones and four times as many facets.
+EpaResult grow(const Difference& d, const GjkResult& g, Real target, int cap, CoreGap& known,
+               bool for_certificate) {
   EpaResult e = expand(d, g.simplex, target, cap, Orientation::rounded);
-  const Real lo = std::max(e.gap.lo, g.gap.lo), hi = std::min(e.gap.hi, g.gap.hi);
-  if (e.exit == EpaResult::Exit::flat || hi - lo <= 8 * target) return e;
+  known.raise(e.gap.lo, e.gap.direction);
+  known.lower(e.gap.hi);
+  const auto is_closed = [&] {
+    return (for_certificate ? std::min(e.gap.hi, g.gap.hi) : known.hi) - known.lo <= 8 * target;
+  };
+  if (e.exit == EpaResult::Exit::flat || is_closed()) return e;
+  if (known.lo < 0 && (is_curved(d.a) || is_curved(d.b))) bound_by_parts(d, e.nearest, target, known);
+  if (is_closed()) return e;
   ++counters().exact_expansions;
   EpaResult f = expand(d, g.simplex, target, 4 * cap, Orientation::exact);
   f.gap.raise(e.gap.lo, e.gap.direction);
@@ -269,8 +279,10 @@ class Judge {
     } else if (effort_ != Effort::certificate && confirm_level0(cap)) {
       return settle();
     }
-    EpaResult e = grow(d_, gjk_, target_, cap);
+    CoreGap known = gap_;
+    EpaResult e = grow(d_, gjk_, target_, cap, known, effort_ == Effort::certificate);
     take(e.gap, e.nearest);
+    take(known, e.nearest);
     if (e.gap.hi < 0 && effort_ == Effort::certificate) {
       t_.inner = std::move(e.polytope);
       t_.inner_depth = d_.radius - d_.radius_error - e.gap.hi;

@@ -206,6 +206,7 @@ MeridianBound meridian_bound(const Difference& d, Real target) {
   const PolygonBound p = grow(section, d.extent, target);
   const Real rounding = chain_rounding * d.extent;
   m.applies = true;
+  m.axis = u;
   const Real l = p.inner - slack - rounding;
   if (l > 0) m.gap.lower(-l);
   const Real3 radial = unit_across(across, u);

@@ -79,6 +79,7 @@ using CoreGap = BasicCoreGap<Real>;
 
 struct MeridianBound {
   bool applies = false;
+  Real3 axis;  // u
   CoreGap gap;
 };
 MeridianBound meridian_bound(const Difference& d, Real target);

@@ -8,6 +8,7 @@
 #include "oracles/checker/checker.h"
 #include "oracles/referee/counters.h"
 #include "oracles/referee/exact/exact_pair.h"
+#include "oracles/referee/exact/exact_point.h"
 #include "oracles/referee/filter/gjk.h"
 #include "oracles/referee/filter/wide.h"
 #include "oracles/referee/work.h"
@@ -113,6 +114,28 @@ Certificate plane_between(const WideDifference& d, const Wide3& direction) {
   return c;
 }
 
+/// A plane of a certificate, and its numbers as the search uses them.
+struct WidePlane {
+  std::vector<std::string> texts;
+  Wide3 direction;
+  Wide offset;
+};
+
+WidePlane wide_plane(std::vector<std::string> texts) {
+  const auto number = [&](std::size_t i) { return wide(rational_from_text(texts[i])); };
+  const Wide3 direction{number(0), number(1), number(2)};
+  const Wide offset = number(3);
+  return {std::move(texts), direction, offset};
+}
+
+// Whether it keeps the two apart by more than rounding.
+bool separates(const WidePlane& p, const WideDifference& d) {
+  const Wide length = norm(p.direction), room = ldexp(d.extent, rounding_bits) * length;
+  const Wide top = dot(p.direction, support(d.a, p.direction).point) + Wide(d.a.radius) * length;
+  const Wide bottom = dot(p.direction, support(d.b, -p.direction).point) - Wide(d.b.radius) * length;
+  return top + room < p.offset && p.offset + room < bottom;
+}
+
 // The point between the nearest points of the cores that divides them in the ratio of the radii.
 Wide3 common_point(const WideDifference& d, const BasicSimplex<Wide>& s) {
   Wide3 a, b;
@@ -186,18 +209,18 @@ std::optional<Rational3> with_simple_weights(const std::map<int, Wide>& weights,
 
 // The overlap may be only 1e-17 thick and the point on the boundary of one body, so that rounding moves it
 // outside; a step of 1e-36 towards that body's middle keeps it inside.
-Certificate inside_both(const WideDifference& d, const Wide3& point, const Placed& a, const Placed& b) {
+Certificate inside_both(const WideDifference& d, const Wide3& point, Holder& a, Holder& b) {
   for (const Wide3& to : {point, middle(d.a), middle(d.b)})
     if (Certificate c = point_at(exact_of(point + ldexp(Wide(1), inward_bits) * (to - point)));
-        checker::check(c, a, b))
+        is_common_point(c, a, b))
       return c;
   return {};
 }
 
 // Bodies that touch by construction touch at fractions, or in a segment or an area that contains some: start
 // from the middle of what several searches found, far from its border, and move to simpler numbers.
-Certificate simple_point(const std::vector<Meeting>& found, const WidePart& x, const WidePart& y,
-                         const Placed& a, const Placed& b) {
+Certificate simple_point(const std::vector<Meeting>& found, const WidePart& x, const WidePart& y, Holder& a,
+                         Holder& b) {
   const Wide extent = x.solid.extent + y.solid.extent;
   for (const int bits : guess_bits)
     for (const Meeting& m : {mean(found), found.front()}) {
@@ -206,7 +229,7 @@ Certificate simple_point(const std::vector<Meeting>& found, const WidePart& x, c
         if (const auto p = with_simple_weights(m.weights[i], i == 0 ? x : y, exact_of(ldexp(Wide(1), bits))))
           guesses.push_back(*p);
       for (const Rational3& guess : guesses)
-        if (Certificate c = point_at(guess); checker::check(c, a, b)) return c;
+        if (Certificate c = point_at(guess); is_common_point(c, a, b)) return c;
     }
   return {};
 }
@@ -249,9 +272,8 @@ std::vector<Wide3> start_directions(const WideDifference& d) {
 
 // For two convex parts, one of each body: a plane between them (not yet checked), or a point in both bodies.
 // `likely`: the direction from one to the other that extended precision found.
-Certificate search(const WidePart& x, const WidePart& y, const Wide3& likely, const Placed& a,
-                   const Placed& b) {
-  const WideDifference d(x.solid, y.solid);
+Certificate search(const WideDifference& d, const WidePart& x, const WidePart& y, const Wide3& likely,
+                   Holder& a, Holder& b) {
   if (largest(likely) > 0)
     if (Certificate c = plane_between(d, likely); c.kind != Certificate::Kind::none) return c;
   spend(10'000'000);
@@ -272,20 +294,24 @@ Certificate search_wide(const Placed& a, const Placed& b) {
   if (std::holds_alternative<HalfSpace>(*a.shape) || std::holds_alternative<HalfSpace>(*b.shape)) return {};
   if (count_parts(a) * count_parts(b) > max_pairs_of_parts) return {};
   const std::vector<WidePart> x = wide_parts_of(a), y = wide_parts_of(b);
-  std::vector<Certificate> found(x.size() * y.size());
+  Holder holds_a(a), holds_b(b);
+  std::vector<WidePlane> planes;
   bool all_apart = true;
   for (const Likely& l : nearest_first(a, b)) {
-    Certificate c = search(x[l.i], y[l.j], wide(l.direction), a, b);
+    const WideDifference d(x[l.i].solid, y[l.j].solid);
+    // The planes between the nearest parts usually serve for the others too.
+    if (std::any_of(planes.begin(), planes.end(), [&](const WidePlane& p) { return separates(p, d); }))
+      continue;
+    Certificate c = search(d, x[l.i], y[l.j], wide(l.direction), holds_a, holds_b);
     if (c.kind == Certificate::Kind::common_point) return c;
     all_apart = all_apart && c.kind == Certificate::Kind::separating_plane;
-    found[l.i * y.size() + l.j] = std::move(c);
+    if (c.kind == Certificate::Kind::separating_plane) planes.push_back(wide_plane(std::move(c.rationals)));
   }
   if (!all_apart) return {};
-  Certificate planes;
-  planes.kind = Certificate::Kind::separating_plane;
-  for (const Certificate& c : found)
-    planes.rationals.insert(planes.rationals.end(), c.rationals.begin(), c.rationals.end());
-  return checker::check(planes, a, b) ? planes : Certificate{};
+  Certificate all;
+  all.kind = Certificate::Kind::separating_plane;
+  for (const WidePlane& p : planes) all.rationals.insert(all.rationals.end(), p.texts.begin(), p.texts.end());
+  return checker::check(all, a, b) ? all : Certificate{};
 }
 
 // Core points are sums of a few products and one or two roots in 237-bit arithmetic: they are within 2^-220

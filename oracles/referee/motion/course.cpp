@@ -103,6 +103,8 @@ ConvexTruth Course::swept(double from, double to, Effort effort) {
   return judge(a_.swept(from, to, origin_), b_ ? b_->at(0, origin_) : Operand{}, effort);
 }
 
+std::optional<MovingRay> Course::ray() const { return b_ ? ray_between(a_, *b_) : std::nullopt; }
+
 // m(t) = exp(tω)·m, the plane m(t)·(x - origin) = o. Each entry of the turning matrix has an error of at most
 // E, so m(t) is off by at most 3E|m|; the exact m(t) has the length of m. The body's error terms are as in
 // half_space.cpp.

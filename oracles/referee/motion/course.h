@@ -21,6 +21,8 @@ class Course {
   ConvexTruth at(double t, Effort effort = Effort::verdict_only);
   /// A over [from, to] against B. Precondition: !turns().
   ConvexTruth swept(double from, double to, Effort effort = Effort::verdict_only);
+  /// As ray_between. Precondition: !turns().
+  std::optional<MovingRay> ray() const;
   /// Direction from A to B of what `at` or `swept` returned.
   Real3 a_to_b(const ConvexTruth& g) const { return half_space_ ? -g.normal : g.normal; }
 

@@ -179,13 +179,31 @@ bool add_contact_at(ImpactCertificate& c, const Scene2& s, const MovingParts& a,
   return false;
 }
 
+// A point and a curved body that do not turn share a point at an exact time, which need not be a double.
+bool add_ray_contact(ImpactCertificate& c, const Scene2& s, const MovingParts& a, const MovingParts& b) {
+  for (const MovingPart& x : a)
+    for (const MovingPart& y : b) {
+      const auto past = ray_between(x.mover(), y.mover());
+      const auto meeting = past ? past->ray.first_meeting() : std::nullopt;
+      if (!meeting || !meeting->contact) continue;
+      const Rational& t = *meeting->contact;
+      const Rational3 p = past->body_at(t) + past->ray.point_at(t) - exact(x.origin());
+      ImpactCertificate only;
+      only.contact = {text_of(t), texts(p)};
+      if (!s.accepts(only)) continue;
+      c.contact = only.contact;
+      return true;
+    }
+  return false;
+}
+
 // At t_hi contact is certain only up to rounding, or (an exact graze) certain only a little earlier. A
 // slightly later time will do if the bodies are deeper then.
 void add_contact(ImpactCertificate& c, const Scene2& s, const MovingParts& a, const MovingParts& b,
                  double t_hi) {
   const bool room = has_room(s.a, s.motion_a) && has_room(s.b, s.motion_b);
   if (!room && t_hi > 0) return;
-  if (add_contact_at(c, s, a, b, t_hi) || !room) return;
+  if (add_ray_contact(c, s, a, b) || add_contact_at(c, s, a, b, t_hi) || !room) return;
   for (const double later : delays) {
     const double t = std::min(1.0, std::max(std::nextafter(t_hi, 2.0), t_hi + later));
     if (add_contact_at(c, s, a, b, t)) return;

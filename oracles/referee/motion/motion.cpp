@@ -3,7 +3,8 @@
 //
 // Without (visible) rotation the predicate "A swept over [s, t] touches B" is monotone in t, and a swept
 // polytope or rounded shape is again one, so the exact level decides it: for such pairs the verdict is always
-// decided, and the time of impact is bracketed down to neighbouring doubles.
+// decided, and the time of impact is bracketed down to neighbouring doubles. So it is for a point against a
+// curved body (exact/ray.h).
 //
 // With rotation: steps over which a separation certainly lasts (course.h), and where they stall, a search for
 // a time of certain contact.
@@ -74,10 +75,27 @@ TimeTruth bracket_contact(Course& c) {
   return hit_between(lo, hi);
 }
 
+// A point and a curved body, decided exactly; `all` is what is known of the whole step.
+TimeTruth judge_ray(const Ray& ray, const ConvexTruth& all) {
+  const auto meeting = ray.first_meeting();
+  TimeTruth r;
+  if (meeting) {
+    r = hit_between(meeting->lo, meeting->hi);
+    r.least_gap.lo = std::min(0.0, round_down(all.lo));
+    return r;
+  }
+  r.verdict = TimeTruth::Verdict::none;
+  r.t_lo = 1;
+  r.least_gap = {std::max(0.0, round_down(all.lo)), std::max(0.0, round_up(all.hi))};
+  return r;
+}
+
 TimeTruth judge_translation(Course& c) {
   const ConvexTruth start = c.at(0, Effort::gap);
   if (start.verdict == Verdict::overlap) return hit_between(0, 0, "overlap at the start");
   const ConvexTruth all = c.swept(0, 1, Effort::gap);
+  if (all.verdict != Verdict::disjoint)
+    if (const auto ray = c.ray()) return judge_ray(ray->ray, all);
   if (all.verdict == Verdict::overlap) {
     TimeTruth r = bracket_contact(c);
     r.least_gap.lo = round_down(all.lo);

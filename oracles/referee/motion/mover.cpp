@@ -66,6 +66,13 @@ Solid Mover::body(const Frame& f) const {
   return core_ ? make_body(*core_, radius_, f) : make_body(placed_, f);
 }
 
+std::optional<Rational3> Mover::single_point() const {
+  if (!core_ || radius_ > 0 || spins_) return std::nullopt;
+  const auto is_first = [&](const Vec3& v) { return v == core_->front(); };
+  if (!std::all_of(core_->begin(), core_->end(), is_first)) return std::nullopt;
+  return world_point(placed_.pose, exact(core_->front()));
+}
+
 Operand Mover::at(double t, const Vec3& origin) const {
   Operand r{body(frame(t, origin, true)), std::nullopt};
   if (core_ && (!spins_ || t == 0))
@@ -85,6 +92,16 @@ Operand Mover::orbit(double t, const Vec3& origin) const {
   if (!spins_) return at(t, origin);
   const Frame f = frame(t, origin, false);
   return {make_orbit(body(f), f.translation, angular()), std::nullopt};
+}
+
+std::optional<MovingRay> ray_between(const Mover& a, const Mover& b) {
+  const auto p = a.single_point(), q = b.single_point();
+  if (!p == !q || a.spins() || b.spins()) return std::nullopt;
+  const Mover &point = p ? a : b, &body = p ? b : a;
+  const Rational3 centre = world_point(body.placed().pose, {0, 0, 0}), drift = body.exact_velocity();
+  auto ray = Ray::past(body.placed(), (p ? *p : *q) - centre, point.exact_velocity() - drift);
+  if (!ray) return std::nullopt;
+  return MovingRay{std::move(*ray), centre, drift, p.has_value()};
 }
 
 }  // namespace touchstone::referee

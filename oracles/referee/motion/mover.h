@@ -2,6 +2,7 @@
 // minus)·t.
 #pragma once
 
+#include "oracles/referee/exact/ray.h"
 #include "oracles/referee/filter/convex.h"
 
 namespace touchstone::referee {
@@ -15,6 +16,9 @@ class Mover {
   Real3 velocity() const { return to_real(motion_.linear) - to_real(minus_); }
   Real3 angular() const { return spins_ ? to_real(motion_.angular) : Real3{}; }
   const Placed& placed() const { return placed_; }
+  Rational3 exact_velocity() const { return exact(motion_.linear) - exact(minus_); }
+  /// Where it is at t = 0, exactly, if it is a single point that does not spin.
+  std::optional<Rational3> single_point() const;
 
   Operand at(double t, const Vec3& origin) const;
   /// The set swept over [from, to]; exact. Precondition: !spins().
@@ -33,5 +37,16 @@ class Mover {
   double radius_ = 0;
   bool spins_ = false;
 };
+
+/// The path of a single point past a curved body, where neither spins: seen from the body, whose translation
+/// is at centre + t·drift.
+struct MovingRay {
+  Ray ray;
+  Rational3 centre, drift;
+  bool is_past_b = false;  // else past a
+
+  Rational3 body_at(const Rational& t) const { return centre + t * drift; }
+};
+std::optional<MovingRay> ray_between(const Mover& a, const Mover& b);
 
 }  // namespace touchstone::referee

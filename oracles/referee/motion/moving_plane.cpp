@@ -105,6 +105,18 @@ PlaneTrack step(const Directions& d, const PlaneKey& last, double t, const Movin
   return {};
 }
 
+PlaneKey key_of(const ExactPlane& plane, double t) {
+  const Rational size = std::max(
+      {Rational(abs(plane.direction.x)), Rational(abs(plane.direction.y)), Rational(abs(plane.direction.z))});
+  PlaneKey k;
+  k.t = t;
+  k.direction = Rational(1) / size * plane.direction;
+  k.offset = plane.offset / size;
+  k.n = {rounded(k.direction.x), rounded(k.direction.y), rounded(k.direction.z)};
+  k.o = rounded(k.offset);
+  return k;
+}
+
 // Neither turns: one plane for the whole sweep, exact for polytopes and rounded shapes.
 PlaneTrack exact_track(const MovingPart& a, const MovingPart& b, double until) {
   const Operand x = a.mover().swept(0, until, a.origin()), y = b.at(0);
@@ -113,16 +125,26 @@ PlaneTrack exact_track(const MovingPart& a, const MovingPart& b, double until) {
   const ExactVerdict v = decide(p, {});
   if (v.overlap) return {};
   const ExactPlane plane = separating_plane(p, v);
-  PlaneKey k;
-  const Rational size = std::max(
-      {Rational(abs(plane.direction.x)), Rational(abs(plane.direction.y)), Rational(abs(plane.direction.z))});
-  k.direction = Rational(1) / size * plane.direction;
-  k.offset = plane.offset / size - dot(k.direction, exact(a.origin()));
-  k.n = {rounded(k.direction.x), rounded(k.direction.y), rounded(k.direction.z)};
-  k.o = rounded(k.offset);
+  const PlaneKey k = key_of({plane.direction, plane.offset - dot(plane.direction, exact(a.origin()))}, 0);
   PlaneKey last = k;
   last.t = until;
   return {k, last};
+}
+
+// A point past a curved body that does not turn: one plane that travels with the body.
+PlaneTrack ray_track(const MovingPart& a, const MovingPart& b, double until) {
+  const auto past = ray_between(a.mover(), b.mover());
+  if (!past) return {};
+  const auto beyond = past->ray.plane_until(exact(until));
+  if (!beyond) return {};
+  const Rational side = past->is_past_b ? -1 : 1;
+  PlaneTrack track;
+  for (const double t : {0.0, until}) {
+    const Rational3 centre = past->body_at(exact(t)) - exact(a.origin());
+    track.push_back(
+        key_of({side * beyond->direction, side * (beyond->offset + dot(beyond->direction, centre))}, t));
+  }
+  return track;
 }
 
 }  // namespace
@@ -174,7 +196,8 @@ bool keeps_apart(const PlaneTrack& track, const MovingPart& a, const MovingPart&
 PlaneTrack track_between(const MovingPart& a, const MovingPart& b, double until) {
   const bool bounded = !a.is_half_space() && !b.is_half_space();
   if (bounded && !a.turns() && !b.turns())
-    if (PlaneTrack whole = exact_track(a, b, until); !whole.empty()) return whole;
+    for (const auto& exactly : {exact_track, ray_track})
+      if (PlaneTrack whole = exactly(a, b, until); !whole.empty()) return whole;
   const Directions directions(a, b);
   const auto first = directions.key(0);
   if (!first) return {};

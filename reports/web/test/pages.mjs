@@ -1,6 +1,7 @@
 // Pages in a real browser: node pages.mjs CHROMIUM DIR [SCREENSHOTS], where DIR holds case.html (two bodies that touch or overlap),
 // motion.html, report.html, chart.html, stability.html, many.html: a report of 1e5 kinds of
 // findings, separate.html, touching.html, curved.html, mesh.html, script.html, crowd.html: cases of these kinds, certified.html, refuted.html: certificates of broad phases,
+// index.html: the index of all these,
 // broad.html, broad.json: a script's broad phases as a page and as `--json`. Prints one line a check; exit code 1 when one fails.
 import { readFileSync, statSync } from "node:fs";
 import { join } from "node:path";
@@ -24,7 +25,7 @@ const colours = (page) =>
   });
 const picture = (page) => page.evaluate(() => document.querySelector("#view canvas").toDataURL());
 
-for (const name of ["case.html", "crowd.html", "motion.html", "report.html", "many.html", "chart.html", "stability.html", "certified.html", "refuted.html", "broad.html"]) {
+for (const name of ["case.html", "crowd.html", "motion.html", "report.html", "many.html", "chart.html", "stability.html", "certified.html", "refuted.html", "broad.html", "index.html"]) {
   check(`${name} is smaller than 5 MB`, statSync(join(dir, name)).size < 5e6);
   for (const size of [{ width: 1280, height: 720 }, { width: 390, height: 844, dark: true }]) {
     const { page, errors } = await open(name, size);
@@ -66,6 +67,27 @@ for (const name of ["case.html", "crowd.html", "motion.html", "report.html", "ma
     check("broad.html's slider moves the boxes", full.frames.length > 1 && (await drawn()) !== first);
     await page.close();
   }
+}
+
+{
+  const { page } = await open("index.html");
+  const d = await data(page);
+  const rows = await page.$$("ul.results > li");
+  check("the index has a line for each result", rows.length === d.results.length + d.unreadable.length && rows.length >= 10, String(rows.length));
+  const links = await page.$$eval("ul.results a", (all) => all.map((a) => a.href));
+  check("the links of the index lead to files", links.length >= d.results.length && links.every((x) => statSync(new URL(x)).isFile()));
+  const said = await page.$$eval("li[data-mood=bad] .verdict", (all) => all.map((x) => x.textContent));
+  check("the index says what is wrong", said.length > 0 && said.every((x) => x.startsWith("✗")), said.join("; "));
+  await page.close();
+}
+
+{
+  const { page } = await open("case.html");
+  const d = await data(page);
+  const claim = await page.textContent("#claim");
+  const name = claim.match(/(\S+) says:/)?.[1];
+  check("a case opens on a wrong answer, beside the truth", claim.startsWith("Truth:") && claim.includes("WRONG") && d.queries.some((x) => x.engines[name]?.faults.length > 0), claim);
+  await page.close();
 }
 
 {

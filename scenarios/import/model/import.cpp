@@ -36,6 +36,8 @@ constexpr auto formats = std::to_array<Format>({
     {".stl", "stl", read_mesh_model},
     {".ply", "ply", read_mesh_model},
     {".dae", "dae", read_mesh_model},
+    {".gltf", "gltf", read_gltf},
+    {".glb", "glb", read_gltf},
 });
 
 const Format* format_of(const std::filesystem::path& file) {

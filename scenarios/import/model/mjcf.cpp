@@ -1,13 +1,14 @@
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <map>
+#include <memory>
 #include <numbers>
-#include <set>
+#include <span>
 
 #include "core/base/input_error.h"
-#include "scenarios/import/height_field.h"
-#include "scenarios/import/model/mjcf_defaults.h"
+#include "scenarios/import/model/mjcf_cable.h"
+#include "scenarios/import/model/mjcf_document.h"
+#include "scenarios/import/model/mjcf_shapes.h"
 #include "scenarios/import/model/names.h"
 #include "scenarios/import/model/readers.h"
 #include "scenarios/import/pose_algebra.h"
@@ -15,151 +16,233 @@
 namespace touchstone {
 namespace {
 
-bool is_any(const std::string& name, std::initializer_list<std::string_view> list) {
-  return std::find(list.begin(), list.end(), name) != list.end();
-}
+// One of the copies that a <replicate> makes.
+struct Replica {
+  int replicate = 0, copy = 0;
+  bool operator==(const Replica&) const = default;
+};
 
 // Where bodies, geoms and frames are.
 struct MjcfPlace {
   int link = 0;
-  Pose pose;             // in the link
-  std::string of_class;  // childclass around
+  Pose pose;                   // in the link
+  std::string of_class;        // childclass around
+  std::string prefix, suffix;  // of names, by attachments and replicas around
+  std::vector<Replica> replicas;
+
+  std::string named(const std::string& name) const { return prefix + name + suffix; }
+};
+
+// A joint of a body, which may be in frames and replicas of it.
+struct PlacedJoint {
+  XmlElement element;
+  MjcfPlace at;
+};
+
+// A body by the name in its file, of which replicas have copies.
+struct NamedBody {
+  int link = 0;
+  std::vector<Replica> replicas;
+};
+
+// Whether replicas that both are in are the same copies.
+bool are_together(const NamedBody& a, const NamedBody& b) {
+  for (const Replica& x : a.replicas)
+    for (const Replica& y : b.replicas)
+      if (x.replicate == y.replicate && x.copy != y.copy) return false;
+  return true;
+}
+
+// Copy i of `count`: as many digits as the count has.
+std::string numbered(int i, int count) {
+  const std::string digits = std::to_string(i);
+  return std::string(std::to_string(count).size() - digits.size(), '0') + digits;
+}
+
+// A body or frame by its name, and the class around it.
+struct Found {
+  XmlElement element;
+  std::string of_class;
 };
 
 class MjcfReader {
  public:
-  MjcfReader(const std::filesystem::path& file, ImportContext& context) : file_(file), context_(context) {
-    add_file(file);
+  MjcfReader(const std::filesystem::path& file, ImportContext& context) : context_(context) {
+    document_ = &document(file);
   }
 
   Model read() {
-    const XmlElement root = files_.front().root();
-    if (root.name() != "mujoco") root.fail("is not the root element <mujoco> of an MJCF file");
-    model_.name = root.attribute("model").value_or(file_.stem().string());
+    const XmlElement root = document_->root();
+    model_.name = root.attribute("model").value_or(document_->file().stem().string());
     model_.links.emplace_back().name = "world";
-    bodies_.add(root, "world", 0);
-    const std::vector<XmlElement> sections = expanded(root);
-    for (const XmlElement& s : sections)
-      if (s.name() == "compiler") read_compiler(s);
-    for (const XmlElement& s : sections)
-      if (s.name() == "default") defaults_.read(s, "");
-    for (const XmlElement& s : sections)
-      if (s.name() == "asset") read_assets(s);
-    for (const XmlElement& s : sections)
-      if (s.name() == "option") read_option(s);
-    for (const XmlElement& s : sections)
-      if (s.name() == "worldbody")
-        read_contents(s, expanded(s), {0, {}, s.attribute("childclass").value_or("")}, 0);
-    if (filters_parents_) filter_parents();
-    for (const XmlElement& s : sections) read_rest(s);
+    add_body(root, "world", {}, 0);
+    for (const XmlElement& s : document_->sections())
+      if (s.name() == "worldbody") {
+        MjcfPlace at;
+        at.of_class = s.attribute("childclass").value_or("");
+        read_contents(s, document_->expanded(s), at, 0);
+      }
+    if (document_->filters_parents()) filter_parents();
+    for (const XmlElement& s : document_->sections()) read_rest(s);
     sort_filters(model_);
     return std::move(model_);
   }
 
  private:
   static constexpr int max_depth = 200;
+  static constexpr int most_elements = 200'000;  // after replication and attachment
 
-  void add_file(const std::filesystem::path& file) {
-    files_.emplace_back(file);
-    opened_.insert(file.lexically_normal().string());
+  MjcfDocument& document(const std::filesystem::path& file) {
+    auto& d = documents_[file.lexically_normal().string()];
+    if (!d) d = std::make_unique<MjcfDocument>(file, context_);
+    return *d;
   }
 
-  // The children, with included files in place of <include>.
-  std::vector<XmlElement> expanded(const XmlElement& e) {
-    std::vector<XmlElement> list;
-    for (const XmlElement& c : e.children()) {
-      if (c.name() != "include") {
-        list.push_back(c);
-        continue;
-      }
-      const auto file = context_.resolve(c.need("file"), file_.parent_path(), c.place());
-      if (opened_.contains(file.lexically_normal().string())) c.fail("includes a file for the second time");
-      add_file(file);
-      const auto inner = expanded(files_.back().root());
-      list.insert(list.end(), inner.begin(), inner.end());
+  Pose pose_in(const MjcfElement& e) const {
+    return {e.vec3("pos").value_or(Vec3::Zero()), e.orientation(document_->compiler()).value_or(Quat{})};
+  }
+  // Of an element that default classes do not concern.
+  Pose own_pose(const XmlElement& e) const { return pose_in(MjcfElement(e, document_->defaults(), "")); }
+
+  // The class for the children of a body, frame or replicate.
+  std::string class_in(const XmlElement& e, const std::string& around) const {
+    std::string of_class = e.attribute("childclass").value_or(around);
+    document_->defaults().require(of_class, e);
+    return of_class;
+  }
+
+  MjcfPlace in_frame(const XmlElement& e, MjcfPlace at) const {
+    at.pose = compose(at.pose, own_pose(e));
+    at.of_class = class_in(e, at.of_class);
+    return at;
+  }
+
+  // The places of the copies of a <replicate>.
+  std::vector<MjcfPlace> replicas(const XmlElement& e, const MjcfPlace& at) {
+    const double count = e.need_number("count");
+    if (!(count >= 1 && count <= most_elements) || count != std::floor(count))
+      e.fail("count must be a whole number from 1 to " + std::to_string(most_elements));
+    const int n = static_cast<int>(count), id = replicates_++;
+    const Vec3 offset = e.vec3("offset").value_or(Vec3::Zero()),
+               euler = e.vec3("euler").value_or(Vec3::Zero());
+    std::vector<MjcfPlace> places;
+    Pose frame;
+    for (int i = 0; i < n; ++i) {
+      frame.rotation = euler_rotation(euler * i, document_->compiler());
+      MjcfPlace& p = places.emplace_back(at);
+      p.pose = compose(at.pose, frame);
+      p.of_class = class_in(e, at.of_class);
+      p.suffix = e.attribute("sep").value_or("") + numbered(i, n) + at.suffix;
+      p.replicas.push_back({id, i});
+      frame = compose(frame, {offset, {}});
+      count_element(e);
     }
-    return list;
+    return places;
   }
 
-  void read_compiler(const XmlElement& e) {
-    if (const auto a = e.attribute("angle")) compiler_.degrees = *a != "radian";
-    if (e.attribute("coordinate").value_or("local") != "local") e.fail("only local coordinates are read");
-    if (const auto d = e.attribute("assetdir")) compiler_.mesh_folder = *d;
-    if (const auto d = e.attribute("meshdir")) compiler_.mesh_folder = *d;
-    if (const auto s = e.attribute("strippath")) compiler_.strip_path = *s == "true";
-    if (const auto s = e.attribute("eulerseq")) {
-      if (s->size() != 3 || s->find_first_not_of("xyzXYZ") != std::string::npos)
-        e.fail("eulerseq must be three of the letters xyzXYZ");
-      compiler_.euler_sequence = *s;
-    }
-  }
-
-  void read_option(const XmlElement& e) {
-    for (const XmlElement& f : e.children("flag"))
-      if (f.attribute("filterparent").value_or("enable") == "disable") filters_parents_ = false;
-  }
-
-  void read_assets(const XmlElement& e) {
-    for (const XmlElement& a : expanded(e)) {
-      if (a.name() != "mesh" && a.name() != "hfield") continue;
-      const std::string stem = std::filesystem::path(a.attribute("file").value_or("")).stem().string();
-      (a.name() == "mesh" ? meshes_ : height_fields_).emplace(a.attribute("name").value_or(stem), a);
-    }
-  }
-
-  static Pose pose_in(const MjcfElement& e, const MjcfCompiler& compiler) {
-    return {e.vec3("pos").value_or(Vec3::Zero()), e.orientation(compiler).value_or(Quat{})};
+  void count_element(const XmlElement& e) {
+    if (++elements_ > most_elements)
+      e.fail("a model with more than " + std::to_string(most_elements) + " elements is not read");
   }
 
   void read_contents(const XmlElement& e, const std::vector<XmlElement>& children, const MjcfPlace& at,
                      int depth) {
     if (depth > max_depth) e.fail("is nested deeper than " + std::to_string(max_depth) + " levels");
     for (const XmlElement& c : children) {
+      count_element(c);
       const std::string name = c.name();
       if (name == "geom") {
         read_geom(c, at);
       } else if (name == "body") {
         read_body(c, at, depth);
       } else if (name == "frame") {
-        const MjcfElement f(c, defaults_, "");
-        read_contents(c, expanded(c),
-                      {at.link, compose(at.pose, pose_in(f, compiler_)),
-                       c.attribute("childclass").value_or(at.of_class)},
-                      depth + 1);
+        read_contents(c, document_->expanded(c), in_frame(c, at), depth + 1);
+      } else if (name == "replicate") {
+        const std::vector<XmlElement> inner = document_->expanded(c);
+        for (const MjcfPlace& copy : replicas(c, at)) read_contents(c, inner, copy, depth + 1);
+      } else if (name == "attach") {
+        read_attach(c, at, depth);
+      } else if (name == "composite") {
+        read_composite(c, at);
       } else if (!is_any(name, {"joint", "freejoint", "inertial", "site", "camera", "light", "plugin"})) {
         context_.refuse(c, "cannot be represented");
       }
     }
   }
 
+  // Those of a body, in frames and replicas too, in the order of the file.
+  void gather_joints(const std::vector<XmlElement>& children, const MjcfPlace& at, int depth,
+                     std::vector<PlacedJoint>& joints) {
+    for (const XmlElement& c : children) {
+      const std::string name = c.name();
+      if (name == "joint" || name == "freejoint") joints.push_back({c, at});
+      if (depth > max_depth || (name != "frame" && name != "replicate") || !has_joints(c, depth)) continue;
+      const std::vector<XmlElement> inner = document_->expanded(c);
+      const auto places = name == "frame" ? std::vector{in_frame(c, at)} : replicas(c, at);
+      for (const MjcfPlace& p : places) gather_joints(inner, p, depth + 1, joints);
+    }
+  }
+  bool has_joints(const XmlElement& e, int depth) const {
+    for (const XmlElement& c : e.children()) {
+      const std::string name = c.name();
+      if (name == "joint" || name == "freejoint" || name == "include") return true;
+      if ((name == "frame" || name == "replicate") && depth <= max_depth && has_joints(c, depth + 1))
+        return true;
+    }
+    return false;
+  }
+
   void read_body(const XmlElement& e, const MjcfPlace& at, int depth) {
-    const std::string inner_class = e.attribute("childclass").value_or(at.of_class);
-    defaults_.require(inner_class, e);
-    const std::string name = e.attribute("name").value_or("body#" + std::to_string(++unnamed_));
-    Pose pose = compose(at.pose, pose_in(MjcfElement(e, MjcfDefaults(), ""), compiler_));
+    const auto own_name = e.attribute("name");
+    const std::string name = own_name ? at.named(*own_name) : "body#" + std::to_string(++unnamed_);
+    MjcfPlace inner = at;
+    inner.of_class = class_in(e, at.of_class);
+    inner.pose = {};
+    Pose pose = compose(at.pose, own_pose(e));
     int parent = at.link;
-    std::vector<XmlElement> joints;
-    const std::vector<XmlElement> children = expanded(e);
-    for (const XmlElement& c : children)
-      if (c.name() == "joint" || c.name() == "freejoint") joints.push_back(c);
+    std::vector<PlacedJoint> joints;
+    const std::vector<XmlElement> children = document_->expanded(e);
+    gather_joints(children, inner, depth, joints);
     for (std::size_t i = 0; i < joints.size(); ++i) {
       const bool is_last = i + 1 == joints.size();
       parent = add_link(is_last ? name : name + "~" + std::to_string(i), parent,
-                        joint_in(joints[i], pose, inner_class, parent));
+                        joint_in(joints[i], pose, parent));
       pose = {};
     }
-    if (joints.empty()) {
-      ModelJoint held;
-      held.name = name + ":fixed";
-      held.origin = pose;
-      parent = add_link(name, parent, std::move(held));
-    }
-    bodies_.add(e, name, parent);
-    read_contents(e, children, {parent, {}, inner_class}, depth + 1);
+    if (joints.empty()) parent = add_link(name, parent, held(name, pose));
+    add_body(e, name, own_name ? at.prefix + *own_name : name, parent, at.replicas);
+    inner.link = parent;
+    read_contents(e, children, inner, depth + 1);
+  }
+
+  void add_body(const XmlElement& e, const std::string& name, const std::string& in_file, int link,
+                const std::vector<Replica>& replicas = {}) {
+    bodies_.add(e, name, link);
+    by_name_in_file_.emplace(in_file.empty() ? name : in_file, NamedBody{link, replicas});
+  }
+
+  static ModelJoint held(const std::string& name, const Pose& pose) {
+    ModelJoint joint;
+    joint.name = name + ":fixed";
+    joint.origin = pose;
+    return joint;
+  }
+  static ModelJoint quaternion_joint(const std::string& name, bool is_free, const Pose& origin) {
+    ModelJoint joint;
+    joint.name = name;
+    joint.type = is_free ? JointType::free : JointType::ball;
+    joint.standard = {0, 0, 0, 1};
+    joint.origin = origin;
+    if (!is_free) return joint;
+    const Vec3& t = origin.translation;
+    const Quat& q = origin.rotation;
+    joint.standard = {t.x(), t.y(), t.z(), q.x, q.y, q.z, q.w};
+    joint.origin = {};
+    return joint;
   }
 
   int add_link(const std::string& name, int parent, ModelJoint joint) {
-    require_few_links(model_, files_.front().root());
+    require_few_links(model_, document_->root());
     ModelLink link;
     link.name = name;
     link.parent = parent;
@@ -169,33 +252,39 @@ class MjcfReader {
     return static_cast<int>(model_.links.size()) - 1;
   }
 
-  ModelJoint joint_in(const XmlElement& e, const Pose& origin, const std::string& around, int parent) {
-    const MjcfElement j(e, defaults_, around);
-    ModelJoint joint;
-    joint.name = e.attribute("name").value_or("joint#" + std::to_string(model_.joints.size()));
-    joint.origin = origin;
+  ModelJoint joint_in(const PlacedJoint& placed, const Pose& origin, int parent) {
+    const XmlElement& e = placed.element;
+    const MjcfElement j(e, document_->defaults(), placed.at.of_class);
+    const auto own_name = e.attribute("name");
+    const std::string name =
+        own_name ? placed.at.named(*own_name) : "joint#" + std::to_string(model_.joints.size());
     const std::string type = e.name() == "freejoint" ? "free" : j.text("type").value_or("hinge");
-    joint.anchor = j.vec3("pos").value_or(Vec3::Zero());
-    if (type == "free") {
-      if (parent != 0) e.fail("a free joint must be in a body of the world");
-      joint.type = JointType::free;
-      const Vec3& t = origin.translation;
-      const Quat& q = origin.rotation;
-      joint.standard = {t.x(), t.y(), t.z(), q.x, q.y, q.z, q.w};
-      joint.origin = {};
-      return joint;
-    }
-    if (type == "ball") {
-      joint.type = JointType::ball;
-      joint.standard = {0, 0, 0, 1};
+    replicated_joints_ = replicated_joints_ || !placed.at.replicas.empty();
+    if (type == "free" && parent != 0) e.fail("a free joint must be in a body of the world");
+    const Vec3 anchor = compose(placed.at.pose, {j.vec3("pos").value_or(Vec3::Zero()), {}}).translation;
+    if (type == "free" || type == "ball") {
+      ModelJoint joint = quaternion_joint(name, type == "free", origin);
+      joint.anchor = anchor;
       return joint;
     }
     if (type != "hinge" && type != "slide") e.fail("unknown type " + printable(type));
+    ModelJoint joint;
+    joint.name = name;
+    joint.origin = origin;
+    joint.anchor = anchor;
     joint.type = type == "hinge" ? JointType::hinge : JointType::slide;
     const Vec3 axis = j.vec3("axis").value_or(Vec3::UnitZ());
     if (axis.isZero(0)) e.fail("the axis is zero");
+    const Quat& turn = placed.at.pose.rotation;
     joint.axis = axis.stableNormalized();
-    const double unit = type == "hinge" && compiler_.degrees ? std::numbers::pi / 180 : 1;
+    if (turn != Quat{}) joint.axis = (rotation_matrix(turn) * joint.axis).normalized();
+    set_range(j, joint);
+    return joint;
+  }
+
+  void set_range(const MjcfElement& j, ModelJoint& joint) const {
+    const bool is_angle = joint.type == JointType::hinge && document_->compiler().degrees;
+    const double unit = is_angle ? std::numbers::pi / 180 : 1;
     joint.reference = j.number("ref", 0) * unit;
     joint.standard = {joint.reference};
     const auto range = j.numbers("range");
@@ -203,7 +292,6 @@ class MjcfReader {
       joint.lower = range[0] * unit;
       joint.upper = range[1] * unit;
     }
-    return joint;
   }
 
   static std::uint32_t bits(const MjcfElement& g, std::string_view attribute) {
@@ -214,155 +302,138 @@ class MjcfReader {
   }
 
   void read_geom(const XmlElement& e, const MjcfPlace& at) {
-    const MjcfElement g(e, defaults_, at.of_class);
+    const MjcfElement g(e, document_->defaults(), at.of_class);
     ModelShape s;
-    s.name = e.attribute("name").value_or("");
+    const auto own_name = e.attribute("name");
+    s.name = own_name ? at.named(*own_name) : "";
     s.category = bits(g, "contype");
     s.mask = bits(g, "conaffinity");
     if (s.category == 0 && s.mask == 0) return;  // drawn, never collides
-    Pose pose = pose_in(g, compiler_);
-    auto shape = shape_in(g, pose);
+    Pose pose = pose_in(g);
+    auto shape = mjcf_shape(g, *document_, context_, pose);
     if (!shape) return;
-    try {
-      validate(*shape);
-    } catch (const InputError& error) {
-      e.fail(error.what());
-    }
     if (kind_of(*shape) == ShapeKind::half_space &&
         !anchored_links(model_)[static_cast<std::size_t>(at.link)])
       return context_.refuse(e, "is a plane on a body that moves");
     s.shape = std::move(*shape);
     s.in_link = compose(at.pose, pose);
-    require_few_shapes(++shapes_, e);
-    model_.links[static_cast<std::size_t>(at.link)].shapes.push_back(std::move(s));
+    add_shape(e, at.link, std::move(s));
   }
 
-  // With fromto, the pose and the length are those of the segment.
-  static void apply_segment(const MjcfElement& g, const std::string& type, std::vector<double>& size,
-                            Pose& pose) {
-    const auto v = g.numbers("fromto");
-    if (v.size() != 6) g.xml().fail("fromto has " + std::to_string(v.size()) + " numbers instead of 6");
-    if (!is_any(type, {"capsule", "cylinder", "ellipsoid", "box"}))
-      g.xml().fail("fromto does not fit a " + printable(type));
-    if (size.empty()) g.xml().fail("lacks a size");
-    const Vec3 from(v[0], v[1], v[2]), to(v[3], v[4], v[5]);
-    const Vec3 along = from - to;
-    if (along.isZero(0)) g.xml().fail("fromto is a point");
-    const double half = along.stableNorm() / 2;
-    size = type == "capsule" || type == "cylinder" ? std::vector{size[0], half}
-                                                   : std::vector{size[0], size[0], half};
-    pose = {(from + to) / 2, from_z_to(along)};
-  }
-
-  std::optional<Shape> shape_in(const MjcfElement& g, Pose& pose) {
-    const std::string type = g.text("type").value_or("sphere");
-    if (type == "mesh") return mesh_in(g);
-    if (type == "hfield") return height_field_in(g);
-    if (g.text("mesh")) {
-      context_.refuse(g.xml(), "fits a " + printable(type) + " to a mesh, which is not supported");
-      return std::nullopt;
+  void add_shape(const XmlElement& e, int link, ModelShape s) {
+    try {
+      validate(s.shape);
+    } catch (const InputError& error) {
+      e.fail(error.what());
     }
-    if (type == "plane") return Shape(HalfSpace{Vec3::UnitZ(), 0});
+    require_few_shapes(++shapes_, e);
+    model_.links[static_cast<std::size_t>(link)].shapes.push_back(std::move(s));
+  }
+
+  // ---- a chain of bodies
+
+  void read_composite(const XmlElement& e, const MjcfPlace& at) {
+    if (e.need("type") != "cable")
+      return context_.refuse(e, "type " + printable(e.need("type")) + " cannot be represented");
+    const MjcfCable cable = read_cable(e);
+    MjcfPlace here = at;
+    for (std::size_t i = 0; i < cable.parts.size(); ++i) {
+      const std::string name = at.named(cable.body_name(i));
+      const Pose pose = compose(here.pose, cable.parts[i]);
+      const bool is_free = i == 0 && cable.initial == "free";
+      if (is_free && at.link != 0) e.fail("a free joint must be in a body of the world");
+      const int link = add_link(name, here.link,
+                                i == 0 && cable.initial == "none"
+                                    ? held(name, pose)
+                                    : quaternion_joint(at.named(cable.joint_name(i)), is_free, pose));
+      replicated_joints_ = replicated_joints_ || !at.replicas.empty();
+      add_body(e, name, at.prefix + cable.body_name(i), link, at.replicas);
+      add_cable_shape(e, cable, i, link, at);
+      if (i > 0) add_filter(model_, here.link, link);
+      here.link = link;
+      here.pose = {};
+    }
+  }
+
+  // Default classes do not concern the parts of composites.
+  void add_cable_shape(const XmlElement& e, const MjcfCable& cable, std::size_t part, int link,
+                       const MjcfPlace& at) {
+    const MjcfElement g(e.need_child("geom"), no_defaults_, "");
+    const std::string type = g.text("type").value_or("sphere");
+    if (!is_any(type, {"capsule", "cylinder", "box"}))
+      g.xml().fail("the parts of a cable are of type capsule, cylinder or box");
     std::vector<double> size = g.numbers("size");
-    if (g.text("fromto")) apply_segment(g, type, size, pose);
-    const std::size_t need = type == "sphere" ? 1 : type == "capsule" || type == "cylinder" ? 2 : 3;
-    if (is_any(type, {"sphere", "capsule", "cylinder", "box", "ellipsoid"}) && size.size() < need)
-      g.xml().fail("size has " + std::to_string(size.size()) + " numbers instead of " + std::to_string(need));
-    if (type == "sphere") return Shape(Sphere{size[0]});
-    if (type == "capsule") return Shape(Capsule{size[0], size[1]});
-    if (type == "cylinder") return Shape(Cylinder{size[0], size[1]});
-    if (type == "box") return Shape(Box{Vec3(size[0], size[1], size[2])});
-    if (type == "ellipsoid") return Shape(Ellipsoid{Vec3(size[0], size[1], size[2])});
-    context_.refuse(g.xml(), "type " + printable(type) + " cannot be represented");
+    if (size.empty()) g.xml().fail("lacks a size");
+    const double half = cable.lengths[part] / 2;
+    ModelShape s;
+    s.name = at.named(cable.prefix + "G" + std::to_string(part));
+    s.category = bits(g, "contype");
+    s.mask = bits(g, "conaffinity");
+    s.in_link.translation = {half, 0, 0};
+    if (type == "box") {
+      size[0] = half;
+    } else {
+      size = {size[0], half};
+      s.in_link.rotation = from_z_to(-Vec3::UnitX());  // as of fromto
+    }
+    s.shape = sized_shape(type, size, g.xml());
+    if (s.category != 0 || s.mask != 0) add_shape(g.xml(), link, std::move(s));
+  }
+
+  // ---- parts of other models, or of this one once more
+
+  void read_attach(const XmlElement& e, const MjcfPlace& at, int depth) {
+    const auto model = e.attribute("model"), body = e.attribute("body"), frame = e.attribute("frame");
+    if (body && frame) e.fail("names both a body and a frame");
+    if (!model && !body && !frame) e.fail("names neither a model nor a body or frame of this one");
+    MjcfDocument* const outer = document_;
+    MjcfPlace inner = at;
+    inner.prefix += e.need("prefix");
+    const int first_link = static_cast<int>(model_.links.size());
+    const std::size_t first_joint = model_.joints.size();
+    if (model) document_ = &document(document_->model_file(document_->need_asset("model", *model, e)));
+    read_attached(e, body ? "body" : frame ? "frame" : "", body ? *body : frame.value_or(""), inner, depth);
+    const Attached range{inner.prefix, model ? "" : at.prefix, first_link, !model.has_value()};
+    for (const XmlElement& s : document_->sections())
+      if (s.name() == "contact") read_contacts(s, range);
+    if (model) read_attached_keys(inner, first_joint);
+    document_ = outer;
+  }
+
+  void read_attached(const XmlElement& e, const std::string& kind, const std::string& name, MjcfPlace at,
+                     int depth) {
+    for (const XmlElement& s : document_->sections()) {
+      if (s.name() != "worldbody") continue;
+      at.of_class = s.attribute("childclass").value_or("");
+      if (kind.empty()) {
+        read_contents(e, document_->expanded(s), at, depth + 1);
+      } else if (const auto found = find(s, at.of_class, kind, name, 0)) {
+        at.of_class = found->of_class;
+        read_contents(e, {found->element}, at, depth + 1);
+        return;
+      }
+    }
+    if (!kind.empty()) e.fail("there is no " + kind + " " + printable(name));
+  }
+
+  std::optional<Found> find(const XmlElement& e, const std::string& of_class, const std::string& kind,
+                            const std::string& name, int depth) {
+    if (depth > max_depth) return std::nullopt;
+    for (const XmlElement& c : document_->expanded(e)) {
+      count_element(c);
+      if (c.name() != "body" && c.name() != "frame") continue;
+      if (c.name() == kind && c.attribute("name").value_or("") == name) return Found{c, of_class};
+      if (auto found = find(c, class_in(c, of_class), kind, name, depth + 1)) return found;
+    }
     return std::nullopt;
   }
 
-  // MuJoCo collides the convex hulls of meshes.
-  std::optional<Shape> mesh_in(const MjcfElement& g) {
-    const std::string name = g.text("mesh").value_or("");
-    const auto it = meshes_.find(name);
-    if (it == meshes_.end()) g.xml().fail("there is no mesh " + printable(name));
-    const MjcfElement m(it->second, defaults_, "");
-    try {
-      return mesh_of(m);
-    } catch (const InputError& e) {
-      context_.refuse(e.place(), e.reason());
-      return std::nullopt;
-    }
-  }
-
-  Shape mesh_of(const MjcfElement& m) {
-    const Vec3 scale = m.vec3("scale").value_or(Vec3::Ones());
-    if (m.text("refpos") || m.text("refquat")) m.xml().fail("refpos and refquat are not supported");
-    if (!m.text("file")) {
-      const auto v = m.numbers("vertex");
-      if (v.size() < 12 || v.size() % 3 != 0) m.xml().fail("needs a file, or four vertices or more");
-      std::vector<Vec3> points;
-      for (std::size_t i = 0; i < v.size(); i += 3)
-        points.push_back(Vec3(v[i], v[i + 1], v[i + 2]).cwiseProduct(scale));
-      try {
-        Shape hull = make_hull(std::move(points));
-        validate(hull);
-        return hull;
-      } catch (const InputError& e) {
-        m.xml().fail(e.what());
-      }
-    }
-    return context_.mesh(asset_file(m), scale, true, m.xml().place());
-  }
-
-  std::filesystem::path asset_file(const MjcfElement& asset) const {
-    std::filesystem::path file = *asset.text("file");
-    if (compiler_.strip_path) file = file.filename();
-    if (!compiler_.mesh_folder.empty()) file = std::filesystem::path(compiler_.mesh_folder) / file;
-    return context_.resolve(file.lexically_normal().string(), file_.parent_path(), asset.xml().place());
-  }
-
-  std::optional<Shape> height_field_in(const MjcfElement& g) {
-    const std::string name = g.text("hfield").value_or("");
-    const auto it = height_fields_.find(name);
-    if (it == height_fields_.end()) g.xml().fail("there is no hfield " + printable(name));
-    const MjcfElement field(it->second, defaults_, "");
-    try {
-      return height_field_of(field);
-    } catch (const InputError& e) {
-      context_.refuse(field.xml(), e.place() == field.xml().place() ? e.reason() : e.what());
-      return std::nullopt;
-    }
-  }
-
-  // MuJoCo fills it down to a base, whose thickness is the fourth size; here it is a surface.
-  Shape height_field_of(const MjcfElement& f) const {
-    HeightGrid grid = f.text("file") ? read_height_file(asset_file(f)) : written_heights(f);
-    normalize(grid);
-    const std::vector<double> size = f.numbers("size");
-    if (size.size() != 4 || !std::all_of(size.begin(), size.end(), [](double x) { return x > 0; }))
-      throw InputError("", "needs a size of four positive numbers");
-    return surface_of(grid, size[0], size[1], size[2]);
-  }
-
-  // The heights in the file itself, if any, are written from the greatest y to the least.
-  static HeightGrid written_heights(const MjcfElement& f) {
-    const double rows = f.number("nrow", 0), columns = f.number("ncol", 0);
-    if (rows != std::floor(rows) || columns != std::floor(columns))
-      throw InputError("", "nrow and ncol must be whole numbers");
-    require_grid_size(rows, columns, "");
-    HeightGrid grid{static_cast<std::size_t>(rows), static_cast<std::size_t>(columns), {}};
-    grid.heights.resize(grid.rows * grid.columns);
-    if (!f.text("elevation")) return grid;
-    const std::vector<double> v = f.numbers("elevation");
-    if (v.size() != grid.heights.size())
-      throw InputError("", "elevation has " + std::to_string(v.size()) + " numbers instead of " +
-                               std::to_string(grid.heights.size()));
-    for (std::size_t r = 0; r < grid.rows; ++r)
-      for (std::size_t c = 0; c < grid.columns; ++c)
-        grid.heights[r * grid.columns + c] = finite_float(v[(grid.rows - 1 - r) * grid.columns + c]);
-    return grid;
-  }
-  static float finite_float(double x) {
-    if (std::abs(x) > std::numeric_limits<float>::max())
-      throw InputError("", "a height is too large for a float");
-    return static_cast<float>(x);
+  // Only states that have a value for all joints of the attached model can be taken over.
+  void read_attached_keys(const MjcfPlace& at, std::size_t first_joint) {
+    const std::span<const ModelJoint> joints = std::span(model_.joints).subspan(first_joint);
+    for (const XmlElement& s : document_->sections())
+      if (s.name() == "keyframe")
+        for (const XmlElement& k : document_->expanded(s)) read_key(k, joints, at);
   }
 
   // MuJoCo skips a body and its parent, welded bodies counting as one, unless the parent is part of the
@@ -389,66 +460,101 @@ class MjcfReader {
   }
 
   void read_rest(const XmlElement& s) {
-    if (s.name() == "contact") read_contacts(s);
+    if (s.name() == "contact") read_contacts(s, {});
     if (s.name() == "keyframe")
-      for (const XmlElement& k : expanded(s)) read_key(k);
-    if (!is_any(s.name(),
-                {"compiler", "default", "asset", "option", "worldbody", "contact", "keyframe", "size",
-                 "statistic", "visual", "custom", "equality", "tendon", "actuator", "sensor", "extension"}))
+      for (const XmlElement& k : document_->expanded(s)) read_key(k, model_.joints, {});
+    if (s.name() == "deformable") {
+      for (const XmlElement& d : document_->expanded(s))
+        if (d.name() != "skin") context_.refuse(d, "cannot be represented");
+    } else if (!is_any(s.name(), {"compiler", "default", "asset", "option", "worldbody", "contact",
+                                  "keyframe", "size", "statistic", "visual", "custom", "equality", "tendon",
+                                  "actuator", "sensor", "extension"})) {
       context_.refuse(s, "cannot be represented");
+    }
   }
 
-  void read_contacts(const XmlElement& e) {
-    for (const XmlElement& c : expanded(e)) {
+  // What the contact filters of a file are about: all of it, or a part of it that was attached. Those of a
+  // part of this model may also name a body outside the part.
+  struct Attached {
+    std::string prefix, prefix_outside;
+    int first_link = 0;
+    bool is_of_this_model = false;
+  };
+
+  void read_contacts(const XmlElement& e, const Attached& range) {
+    for (const XmlElement& c : document_->expanded(e)) {
       if (c.name() == "exclude")
-        exclude(c);
+        exclude(c, range);
       else
         context_.refuse(c, "pairs that are asked whatever the filters say cannot be represented");
     }
   }
 
-  void exclude(const XmlElement& e) {
-    const int a = bodies_.need(e, e.need("body1"), "body"), b = bodies_.need(e, e.need("body2"), "body");
-    if (a == b) e.fail("names the same body twice");
-    add_filter(model_, a, b);
+  // The copies of a body from a link on.
+  std::vector<NamedBody> copies(const std::string& in_file, int first_link) const {
+    std::vector<NamedBody> list;
+    const auto [begin, end] = by_name_in_file_.equal_range(in_file);
+    for (auto it = begin; it != end; ++it)
+      if (it->second.link >= first_link) list.push_back(it->second);
+    return list;
   }
 
-  void read_key(const XmlElement& e) {
+  void exclude(const XmlElement& e, const Attached& range) {
+    count_element(e);
+    const std::array<std::string, 2> names{e.need("body1"), e.need("body2")};
+    std::array<std::vector<NamedBody>, 2> found;
+    const bool is_whole = range.first_link == 0;
+    for (std::size_t k = 0; k < 2; ++k) {
+      found[k] = copies(range.prefix + names[k], range.first_link);
+      if (is_whole && found[k].empty()) found[k] = {{bodies_.need(e, names[k], "body"), {}}};
+    }
+    if (found[0].empty() && found[1].empty()) return;
+    for (std::size_t k = 0; k < 2; ++k)
+      if (range.is_of_this_model && found[k].empty()) found[k] = copies(range.prefix_outside + names[k], 0);
+    for (const NamedBody& a : found[0])
+      for (const NamedBody& b : found[1]) {
+        if (a.link == b.link && is_whole) e.fail("names the same body twice");
+        if (a.link != b.link && are_together(a, b)) add_filter(model_, a.link, b.link);
+      }
+  }
+
+  void read_key(const XmlElement& e, std::span<const ModelJoint> joints, const MjcfPlace& at) {
     NamedState state;
-    state.name = e.attribute("name").value_or("key#" + std::to_string(model_.states.size()));
+    const auto own_name = e.attribute("name");
+    state.name = own_name ? at.named(*own_name) : "key#" + std::to_string(model_.states.size());
     const auto q = e.numbers("qpos");
     if (q.empty()) return;
+    std::size_t need = 0;
+    for (const ModelJoint& j : joints) need += variable_count(j.type);
+    if (q.size() != need) {
+      const std::string reason =
+          "qpos has " + std::to_string(q.size()) + " numbers instead of " + std::to_string(need);
+      if (!replicated_joints_ && joints.size() == model_.joints.size()) e.fail(reason);
+      return context_.refuse(e, reason + ": keyframes are read if they state all joints, copies included");
+    }
     std::size_t next = 0;
-    const auto take = [&](std::size_t n) {
-      if (next + n > q.size())
-        e.fail("qpos has " + std::to_string(q.size()) + " numbers, too few for all joints");
+    for (const ModelJoint& j : joints) {
+      const std::size_t n = variable_count(j.type);
+      const auto v = std::span(q).subspan(next, n);
       next += n;
-      return std::span(q).subspan(next - n, n);
-    };
-    for (const ModelJoint& j : model_.joints) {
-      const auto v = take(variable_count(j.type));
       std::vector<double> values(v.begin(), v.end());
       // MuJoCo's quaternions begin with w.
       if (j.type == JointType::ball || j.type == JointType::free)
         std::rotate(values.end() - 4, values.end() - 3, values.end());
       if (!values.empty()) state.values.emplace_back(j.name, std::move(values));
     }
-    if (next != q.size())
-      e.fail("qpos has " + std::to_string(q.size()) + " numbers instead of " + std::to_string(next));
     model_.states.push_back(std::move(state));
   }
 
-  std::filesystem::path file_;
   ImportContext& context_;
-  std::deque<XmlFile> files_;
-  std::set<std::string> opened_;
+  std::map<std::string, std::unique_ptr<MjcfDocument>> documents_;
+  MjcfDocument* document_ = nullptr;  // the one that is being read
   Model model_;
-  MjcfCompiler compiler_;
-  MjcfDefaults defaults_;
-  std::map<std::string, XmlElement> meshes_, height_fields_;
+  const MjcfDefaults no_defaults_;
   NumberByName bodies_;
-  bool filters_parents_ = true;
-  int unnamed_ = 0;
+  std::multimap<std::string, NamedBody> by_name_in_file_;  // with the prefixes of attachments
+  bool replicated_joints_ = false;
+  int unnamed_ = 0, replicates_ = 0, elements_ = 0;
   std::size_t shapes_ = 0;
 };
 

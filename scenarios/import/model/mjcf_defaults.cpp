@@ -30,19 +30,6 @@ Vec3 direction(const XmlElement& e, const Vec3& v, std::string_view what) {
   return v.stableNormalized();
 }
 
-Quat of_euler(const XmlElement& e, const MjcfCompiler& c) {
-  const auto v = exactly(e, "euler", 3);
-  Quat q;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const char axis = c.euler_sequence[i];
-    const bool is_fixed = axis < 'a';  // capital letters: about axes that stay
-    const int k = axis - (is_fixed ? 'X' : 'x');
-    const Quat turn = about(Vec3::Unit(k), c.degrees ? v[i] * (std::numbers::pi / 180) : v[i]);
-    q = is_fixed ? turn * q : q * turn;
-  }
-  return q;
-}
-
 Quat of_axes(const XmlElement& e) {
   const auto v = exactly(e, "xyaxes", 6);
   Mat3 r;
@@ -61,20 +48,34 @@ Quat of_axis_and_angle(const XmlElement& e, const MjcfCompiler& c) {
 
 }  // namespace
 
-void MjcfDefaults::read(const XmlElement& e, const std::string& parent) {
+Quat euler_rotation(const Vec3& angles, const MjcfCompiler& c) {
+  Quat q;
+  for (int i = 0; i < 3; ++i) {
+    const char axis = c.euler_sequence[static_cast<std::size_t>(i)];
+    const bool is_fixed = axis < 'a';  // capital letters: about axes that stay
+    const int k = axis - (is_fixed ? 'X' : 'x');
+    const Quat turn = about(Vec3::Unit(k), c.degrees ? angles[i] * (std::numbers::pi / 180) : angles[i]);
+    q = is_fixed ? turn * q : q * turn;
+  }
+  return q;
+}
+
+void MjcfDefaults::read(const XmlElement& e, const std::string& parent, const Expand& expand) {
   const std::string name = e.attribute("class").value_or(parent.empty() ? std::string(main_class) : "");
   if (name.empty()) e.fail("a nested class needs a name");
   Class& c = classes_[name];
   if (!parent.empty() && c.parent != parent && !(c.parent.empty() && c.elements.empty()))
     e.fail("class " + printable(name) + " is defined twice");
   if (name != parent) c.parent = parent;
-  for (const XmlElement& child : e.children())
+  const std::vector<XmlElement> children = expand(e);
+  for (const XmlElement& child : children)
     if (child.name() != "default") classes_[name].elements[child.name()].push_back(child);
-  for (const XmlElement& child : e.children("default")) {
+  for (const XmlElement& child : children) {
+    if (child.name() != "default") continue;
     const std::string nested = child.attribute("class").value_or("");
     if (nested == name || classes_.contains(nested))
       child.fail("class " + printable(nested) + " is defined twice");
-    read(child, name);
+    read(child, name, expand);
   }
 }
 
@@ -141,7 +142,10 @@ std::optional<Quat> MjcfElement::orientation(const MjcfCompiler& c) const {
   }
   if (!from) return std::nullopt;
   if (form == "axisangle") return of_axis_and_angle(*from, c);
-  if (form == "euler") return of_euler(*from, c);
+  if (form == "euler") {
+    const auto v = exactly(*from, "euler", 3);
+    return euler_rotation({v[0], v[1], v[2]}, c);
+  }
   if (form == "xyaxes") return of_axes(*from);
   if (form == "zaxis") {
     const auto v = exactly(*from, "zaxis", 3);

@@ -1,6 +1,7 @@
 // Attributes of MJCF elements with their default classes, and orientations in each of MJCF's forms.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -16,10 +17,15 @@ struct MjcfCompiler {
   bool strip_path = false;
 };
 
+/// Three rotations in the compiler's sequence and unit.
+Quat euler_rotation(const Vec3& angles, const MjcfCompiler& compiler);
+
 class MjcfDefaults {
  public:
+  /// The children of an element, with included files in place of <include>.
+  using Expand = std::function<std::vector<XmlElement>(const XmlElement&)>;
   /// A <default> element with its nested classes.
-  void read(const XmlElement& e, const std::string& parent);
+  void read(const XmlElement& e, const std::string& parent, const Expand& expand);
   /// Throws InputError at `user` when there is no such class.
   void require(const std::string& name, const XmlElement& user) const;
   /// The elements of a kind ("geom") that set an attribute in a class and in the classes around it, the

@@ -26,6 +26,10 @@ Model read_sdf(const std::filesystem::path& file, ImportContext& context);
 /// MoveIt's text form of a planning scene: objects that are fixed to the world.
 Model read_planning_scene(const std::filesystem::path& file, ImportContext& context);
 
+/// glTF with KHR_physics_rigid_bodies: nodes with a motion are bodies of their own, other colliders are fixed.
+/// Without the extension, one link with one mesh.
+Model read_gltf(const std::filesystem::path& file, ImportContext& context);
+
 /// One link with one mesh.
 Model read_mesh_model(const std::filesystem::path& file, ImportContext& context);
 

@@ -49,8 +49,9 @@ inline Eigen::Isometry3d link_frame(const ImportedModel& m, const std::string& n
   return {};
 }
 
-inline void check_near(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
-  CHECK((a.matrix() - b.matrix()).cwiseAbs().maxCoeff() <= pose_tolerance);
+inline void check_near(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b,
+                       double tolerance = pose_tolerance) {
+  CHECK((a.matrix() - b.matrix()).cwiseAbs().maxCoeff() <= tolerance);
 }
 
 }  // namespace touchstone::test

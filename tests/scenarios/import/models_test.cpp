@@ -285,8 +285,8 @@ TEST_CASE("MJCF: classes, orientations and sizes as MuJoCo reads them", "[import
   CHECK(contains(bad("<worldbody><geom size='1' class='no'/></worldbody>"), "there is no default class no"));
   CHECK(
       contains(bad("<worldbody><geom type='box' size='1'/></worldbody>"), "size has 1 numbers instead of 3"));
-  CHECK(contains(bad("<worldbody><body><composite/></body></worldbody>"),
-                 "<composite>: cannot be represented"));
+  CHECK(contains(bad("<worldbody><body><composite type='grid'/></body></worldbody>"),
+                 "<composite>: type grid cannot be represented"));
   CHECK(contains(bad("<include file='m.xml'/>"), "includes a file for the second time"));
   CHECK(contains(bad("<worldbody><body><joint/><geom type='plane'/></body></worldbody>"),
                  "a plane on a body that moves"));

@@ -2,6 +2,7 @@
 // wrong, each shown on the robot in its configuration.
 import { LinkState, app, colourOf, commandLine, el, isDark, isTyping, nanoseconds, numberOf, pageData, short, themeButton } from "../common/page";
 import "../case/case.css";
+import { Look } from "../common/look";
 import "./assess.css";
 import { standAt, standsOfScript, type Stand } from "../case/motion";
 import { Picture } from "../case/scene3d";
@@ -36,26 +37,15 @@ app().append(
 );
 
 let picture: Picture | null = null;
+const camera = new Look(() => picture, link);
 try {
   picture = new Picture({ case: { scene: data.scene }, hull_faces: data.hull_faces }, frames.slice(0, 1), view, () => {
     if (picture) link.set("camera", picture.cameraText());
   });
-  const whole = el("button", { type: "button", title: "key f" }, "whole scene"), near = el("button", { type: "button", title: "key c", id: "near" }, "go to the pair");
-  whole.addEventListener("click", lookAtAll);
-  near.addEventListener("click", lookNear);
-  look.append(whole, near);
+  look.append(...camera.buttons("go to the pair"));
 } catch (e) {
   view.append(el("p", { class: "soft", style: "padding:1rem" }, `No picture: this browser does not support WebGL (${String(e)}). The tables have the same results in numbers.`));
 }
-function lookAtAll(): void {
-  picture?.fit();
-  link.set("camera", null);
-}
-function lookNear(): void {
-  picture?.approach();
-  if (picture) link.set("camera", picture.cameraText());
-}
-
 const millimetres = (metres: number): string => (metres === 0 ? "0" : metres < 1e-9 ? "< 1e-6" : short(metres * 1e3, 3));
 const nameOf = (body: number): string => bodies[body]?.name || `body ${body}`;
 
@@ -97,7 +87,7 @@ function choose(i: number): void {
   pair = i;
   link.set("pair", String(i));
   refresh();
-  lookNear();
+  camera.near();
 }
 
 function drawList(): void {
@@ -175,7 +165,7 @@ addEventListener("keydown", (e) => {
   };
   const keys: Record<string, () => void> = {
     ArrowLeft: () => picture?.orbit(-turn, 0, 1), ArrowRight: () => picture?.orbit(turn, 0, 1), ArrowUp: () => picture?.orbit(0, turn, 1), ArrowDown: () => picture?.orbit(0, -turn, 1),
-    "+": () => picture?.orbit(0, 0, 0.85), "=": () => picture?.orbit(0, 0, 0.85), "-": () => picture?.orbit(0, 0, 1 / 0.85), f: lookAtAll, c: lookNear, n: () => step(1), p: () => step(-1),
+    "+": () => picture?.orbit(0, 0, 0.85), "=": () => picture?.orbit(0, 0, 0.85), "-": () => picture?.orbit(0, 0, 1 / 0.85), f: camera.atAll, c: camera.near, n: () => step(1), p: () => step(-1),
   };
   const f = keys[e.key];
   if (!f) return;
@@ -185,10 +175,10 @@ addEventListener("keydown", (e) => {
 link.onChange(() => {
   engine = link.get("engine") ?? "";
   pair = Math.min(data.pairs.length - 1, Math.max(0, link.number("pair") ?? pair));
-  const camera = link.get("camera");
-  if (camera) picture?.setCamera(camera);
+  const kept = link.get("camera");
+  if (kept) picture?.setCamera(kept);
   refresh();
 });
-const camera = link.get("camera");
+const kept = link.get("camera");
 refresh();
-if (camera) picture?.setCamera(camera);
+if (kept) picture?.setCamera(kept);

@@ -1,5 +1,6 @@
 // The page of one case: the bodies with the answers of every engine and the referee, and which engine is wrong.
 import { LinkState, app, colourOf, commandLine, el, isDark, isTyping, nanoseconds, numberOf, pageData, short, themeButton } from "../common/page";
+import { Look } from "../common/look";
 import "./case.css";
 import { drawn, rational, type Drawn } from "./certificate";
 import { Parts } from "./parts";
@@ -25,7 +26,7 @@ const moves = !scripted && frames.length > 1;
 
 // State: the query, the selected engine, the hidden engines, the time.
 let query = Math.min(data.queries.length - 1, Math.max(0, link.number("q") ?? firstInteresting()));
-let chosen = link.get("engine") ?? "";
+let chosen = link.get("engine") ?? firstWrong(query);
 const hidden = new Set((link.get("hide") ?? "").split(",").filter(Boolean));
 let time = link.number("t") ?? momentOf(query);
 
@@ -43,16 +44,34 @@ function firstInteresting(): number {
   return Math.max(0, most > 0 ? wrong.lastIndexOf(most) : data.queries.findIndex((q) => q.question === "contact"));
 }
 
+function isWrong(e?: EngineAnswer): boolean { return e !== undefined && e.faults.length > 0; }
+
+// The engine whose wrong answer a reader sees first: one whose answer can be drawn, the largest error of these. "": all
+// engines are drawn, because none is wrong.
+function firstWrong(i: number): string {
+  const rank = (e: EngineAnswer): number[] => {
+    const error = e.faults.reduce((most, f) => Math.max(most, Math.min(numberOf(f.error_in_l), 1e300) || 0), 0);
+    return [Number(e.answer.outcome === "answered"), Number(Boolean(e.answer.normal?.every(Number.isFinite) || e.answer.witness)), error];
+  };
+  const wrong = Object.entries(data.queries[i]?.engines ?? {}).filter(([, e]) => isWrong(e)).map(([name, e]) => ({ name, rank: rank(e) }));
+  wrong.sort((x, y) => x.rank.map((v, k) => y.rank[k]! - v).find((d) => d !== 0) ?? 0);
+  return wrong[0]?.name ?? "";
+}
+
 const stands = (): (Stand | null)[] =>
   scripted ? frames[Math.min(frames.length - 1, Math.round(time))]! : bodies.map((b) => standAt(b, moves ? time : 0));
-const colour = (engine: string): string => colourOf(engineNames.indexOf(engine));
+// The selected engine, where it is wrong, is red: what it says stands beside the truth, which is green.
+const colour = (engine: string): string =>
+  engine === chosen && isWrong(data.queries[query]?.engines?.[engine]) ? (isDark() ? "#ff8b81" : "#d00000") : colourOf(engineNames.indexOf(engine));
 const refereeColour = (): string => (isDark() ? "#4ade80" : "#0a7a3f");
 
+const units = "Lengths are in the scene's unit, times t in steps. L is the scale of the pair, by which errors are divided.";
 document.title = `Touchstone: ${data.title}`;
 // Polyhedral shapes are their own polytopes: the wireframe would only hide their edges.
 const curved = shapes.some(isCurved);
 const parts = new Parts(link, curved ? [] : ["polytope"], () => refresh());
 const view = el("div", { id: "view" });
+const claim = el("div", { id: "claim" });
 const table = el("div", { id: "answers", class: "scroll" });
 const tabs = el("div", { class: "controls", id: "questions" });
 const words = el("div", { id: "referee" });
@@ -66,7 +85,7 @@ app().append(
   el("header", {}, el("div", { class: "grow" }, el("h1", {}, data.title), data.case.description ? el("p", { class: "soft" }, data.case.description) : null),
     el("div", { class: "controls screen-only" }, themeButton(link, () => refresh()))),
   el("div", { id: "layout" },
-    el("section", { id: "left" }, parts.element, view, timeline,
+    el("section", { id: "left" }, claim, parts.element, view, timeline,
       el("p", { class: "soft screen-only", id: "keys" },
         "Drag to rotate, wheel to zoom, right button to pan. Keys: arrows rotate, + and − zoom, f whole scene, c contact, n and p next and previous engine, q next question, 1 to 6 choose what is drawn, " +
         (frames.length > 1 ? "[ and ] step back and forward in time, space plays, " : "") + "l light or dark.")),
@@ -86,28 +105,14 @@ function bodyList(): HTMLElement {
   return list;
 }
 
-// Buttons for devices without a keyboard and for readers who skip the list of keys.
-function lookButtons(p: Picture): HTMLElement[] {
-  const whole = el("button", { type: "button", title: "key f" }, "whole scene"), contact = el("button", { type: "button", title: "key c", id: "near" }, "go to the contact");
-  whole.addEventListener("click", () => lookAtAll());
-  contact.addEventListener("click", () => lookNear());
-  return p.smallness < 0.03 ? [whole, contact, el("span", { class: "soft" }, "a body is tiny beside the scene")] : [whole, contact];
-}
-function lookAtAll(): void {
-  picture?.fit();
-  link.set("camera", null);
-}
-function lookNear(): void {
-  picture?.approach();
-  if (picture) link.set("camera", picture.cameraText());
-}
-
 let picture: Picture | null = null;
+const camera = new Look(() => picture, link);
 try {
   picture = new Picture(data, frames, view, () => {
     if (picture) link.set("camera", picture.cameraText());
   });
-  parts.element.append(el("span", { class: "grow" }), ...lookButtons(picture));
+  const tiny = picture.smallness < 0.03 ? el("span", { class: "soft" }, "a body is tiny beside the scene") : null;
+  parts.element.append(el("span", { class: "grow" }), ...camera.buttons("go to the contact"), ...(tiny ? [tiny] : []));
 } catch (e) {
   view.append(el("p", { class: "soft", style: "padding:1rem" }, `No picture: this browser does not support WebGL (${String(e)}). The table has the same results in numbers.`));
 }
@@ -133,7 +138,7 @@ function marksOf(q: QueryJson): Mark[] {
   const now = stands();
   for (const name of engineNames) {
     const e = q.engines?.[name];
-    if (!e || hidden.has(name) || e.answer.outcome !== "answered") continue;
+    if (!e || hidden.has(name) || e.answer.outcome !== "answered" || (chosen && name !== chosen)) continue;
     const a = e.answer;
     const base = { colour: colour(name), strong: name === chosen || !chosen };
     const contacts = a.contacts ?? [];
@@ -175,8 +180,9 @@ function stated(q: QueryJson, e: EngineAnswer): string {
     case "distance": return a.distance !== undefined ? short(numberOf(a.distance), 10) : a.overlap ? "overlap, no distance" : "apart, no distance";
     case "contact": {
       if (!a.overlap) return "apart";
-      const n = a.normal ? ` n (${a.normal.map((x) => short(numberOf(x), 3)).join(" ")})` : "";
-      return `depth ${a.depth === undefined ? "–" : short(numberOf(a.depth), 9)}${n}, ${a.manifold?.length ?? 0} points`;
+      const n = a.normal ? ` along (${a.normal.map((x) => short(numberOf(x), 3)).join(" ")})` : "";
+      const points = a.manifold?.length ?? 0;
+      return `depth ${a.depth === undefined ? "–" : short(numberOf(a.depth), 9)}${n}, ${points} ${points === 1 ? "point" : "points"}`;
     }
     case "within": return a.overlap === undefined ? "–" : a.overlap ? "within" : "beyond";
     case "bounded_distance":
@@ -255,17 +261,24 @@ function drawTabs(): void {
     const wrong = Object.values(q.engines ?? {}).filter((e) => e.faults.length > 0).length;
     const b = el("button", { type: "button", "aria-pressed": String(i === query) }, `${q.question.replaceAll("_", " ")}${data.queries.length > 4 ? ` ${q.a}–${q.b}` : ""}${wrong ? ` · ${wrong} wrong` : ""}`);
     b.addEventListener("click", () => {
-      query = i;
-      link.set("q", String(i));
-      refresh();
+      ask(i);
     });
     return b;
   }));
 }
 
+// Shows another question: unless the reader has chosen an engine, with the first wrong answer to it.
+function ask(i: number): void {
+  query = i;
+  link.set("q", String(i));
+  if (link.get("engine") === null) chosen = firstWrong(i);
+  refresh();
+}
+
+// "": all engines. The address then has an empty name, because without one the first wrong engine is chosen.
 function choose(name: string): void {
   chosen = name;
-  link.set("engine", name || null);
+  link.set("engine", name);
   const t = q().engines?.[name]?.answer.toi;
   if (moves && t !== undefined) setTime(numberOf(t));
   refresh();
@@ -310,11 +323,35 @@ function drawTimeline(): void {
     .map(numberOf).filter(Number.isFinite).map((t) => el("option", { value: String(t) })));
 }
 
+// The truth in few words; how precisely it is known stands below.
+function shortTruth(q: QueryJson): string {
+  const lo = numberOf(q.referee.gap?.[0]), hi = numberOf(q.referee.gap?.[1]), middle = (lo + hi) / 2;
+  if (isOfMotion(q.question) || !Number.isFinite(middle)) return refereeLine(q);
+  if (q.referee.verdict === "disjoint") return `apart by ${short(middle, 6)}`;
+  if (q.referee.verdict !== "overlap" || middle > 0) return refereeLine(q);
+  const normal = q.question === "contact" && q.referee.normal ? ` along (${q.referee.normal.map((x) => short(x, 3)).join(" ")})` : "";
+  return middle === 0 ? "the bodies touch" : `the bodies overlap; the least depth is ${short(-middle, 6)}${normal}`;
+}
+
+// Over the picture: what is true, and what the selected engine says, in the colours of what is drawn.
+function drawClaim(now: QueryJson): void {
+  const line = (css: string, who: string, says: string, verdict: HTMLElement | null): HTMLElement =>
+    el("p", {}, el("span", { class: "swatch", style: `background:${css}` }), el("b", {}, who), ` ${says} `, verdict);
+  const e = now.engines?.[chosen];
+  const others = engineNames.filter((n) => n !== chosen && isWrong(now.engines?.[n])).length;
+  claim.replaceChildren(line(refereeColour(), "Truth:", shortTruth(now), null));
+  if (!e) return;
+  claim.append(line(colour(chosen), `${chosen} says:`, stated(now, e), el("b", { class: isWrong(e) ? "bad" : e.right ? "good" : "warn" }, isWrong(e) ? e.ruling.toUpperCase() : e.ruling)));
+  if (e.faults[0]) claim.append(el("p", { class: "bad" }, `${e.faults[0].fault.replaceAll("_", " ")}: ${e.faults[0].words}`));
+  if (isWrong(e) && others > 0) claim.append(el("p", { class: "soft" }, `${others} more ${others > 1 ? "engines are" : "engine is"} wrong: see the table, or press n.`));
+}
+
 const allDrawn = (q: QueryJson): Drawn[] => drawn(q.referee, q.question, moves ? time : 0, stands()[q.b]?.position ?? [0, 0, 0]);
 
 function refresh(): void {
   const now = q();
   drawTabs();
+  drawClaim(now);
   drawTable(now);
   drawTimeline();
   const evidence = allDrawn(now).filter((d) => parts.has(d.kind === "polytope" ? "polytope" : "certificate"));
@@ -323,6 +360,7 @@ function refresh(): void {
   words.replaceChildren(
     el("p", {}, el("span", { class: "swatch", style: `background:${refereeColour()}` }), el("b", {}, "referee: "), refereeLine(now)),
     ...[...new Set(evidence.map((d) => d.words))].map((w) => el("p", { class: "soft" }, `drawn: ${w}`)),
+    el("p", { class: "soft", id: "units" }, units),
     how);
   how.replaceChildren(el("summary", { class: "soft" }, "how the referee knows"), el("ul", { class: "soft" }, ...refereeTrace(now).map((x) => el("li", {}, x))));
   // Commands for the selected engine, or the only wrong one: the smaller case and the program against its own API.
@@ -359,8 +397,8 @@ addEventListener("keydown", (e) => {
     ArrowLeft: () => picture?.orbit(-turn, 0, 1), ArrowRight: () => picture?.orbit(turn, 0, 1),
     ArrowUp: () => picture?.orbit(0, turn, 1), ArrowDown: () => picture?.orbit(0, -turn, 1),
     "+": () => picture?.orbit(0, 0, 0.85), "=": () => picture?.orbit(0, 0, 0.85), "-": () => picture?.orbit(0, 0, 1 / 0.85),
-    f: lookAtAll, c: lookNear,
-    q: () => { query = (query + 1) % data.queries.length; link.set("q", String(query)); refresh(); },
+    f: camera.atAll, c: camera.near,
+    q: () => ask((query + 1) % data.queries.length),
     n: () => nextEngine(1), p: () => nextEngine(-1),
     "]": () => setTime(time + step), "[": () => setTime(time - step),
   };
@@ -382,13 +420,13 @@ addEventListener("beforeprint", () => {
 addEventListener("afterprint", () => refresh());
 link.onChange(() => {
   query = Math.min(data.queries.length - 1, Math.max(0, link.number("q") ?? query));
-  chosen = link.get("engine") ?? "";
+  chosen = link.get("engine") ?? firstWrong(query);
   time = link.number("t") ?? 0;
   parts.follow();
-  const camera = link.get("camera");
-  if (camera) picture?.setCamera(camera);
+  const kept = link.get("camera");
+  if (kept) picture?.setCamera(kept);
   refresh();
 });
-const camera = link.get("camera");
+const kept = link.get("camera");
 refresh();
-if (camera) picture?.setCamera(camera);
+if (kept) picture?.setCamera(kept);

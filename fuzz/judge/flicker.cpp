@@ -1,0 +1,371 @@
+#include "fuzz/judge/flicker.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "fuzz/judge/frames.h"
+#include "fuzz/judge/tau.h"
+#include "oracles/referee/region/contact_region.h"
+
+namespace touchstone::fuzz {
+namespace {
+
+constexpr int arc_steps = 16;  // at which a ridge between two normals is looked for
+
+double angle_between(const Vec3& x, const Vec3& y) { return std::atan2(x.cross(y).norm(), x.dot(y)); }
+
+struct Pair {
+  const AnsweredFrame& before;
+  const AnsweredFrame& after;
+  const Query& q;
+  const EngineCard& card;
+  std::array<Carried, 3> ways;
+
+  double scale() const { return std::max(before.truth.scale(q.a, q.b), after.truth.scale(q.a, q.b)); }
+  /// Of arithmetic alone, without what the engine claims.
+  double rounding() const {
+    return card.tau_factor * pair_roundoff(card, after.truth.scene(), q.a, q.b) * scale();
+  }
+  /// The larger depth, at most: how far below a plane of contact corners may lie.
+  double deepest() const {
+    return -std::min(before.truth.pair(0, q.a, q.b).gap.lo, after.truth.pair(0, q.a, q.b).gap.lo);
+  }
+  double least_change() const { return std::min({ways[0].change, ways[1].change, ways[2].change}); }
+  referee::Bracket width(const Vec3& n) const { return after.truth.width(0, q.a, q.b, n); }
+  bool overlap(const AnsweredFrame& f) const {
+    const referee::PairTruth& t = f.truth.pair(0, q.a, q.b);
+    return t.verdict == referee::Verdict::overlap && std::isfinite(t.gap.lo);
+  }
+};
+
+bool has_surface(const Scene& s, const Query& q) {
+  return kind_of(s.shape_of(q.a)) == ShapeKind::mesh || kind_of(s.shape_of(q.b)) == ShapeKind::mesh;
+}
+
+bool states_contact(const Observation& o) {
+  return o.overlap && *o.overlap && o.normal && o.normal->allFinite() && o.normal->norm() > 0;
+}
+
+// Whether some direction on the shorter arc from n to m needs more than both, by more than the motion can
+// have levelled out: then the two lie on different features in both frames.
+bool has_ridge_between(const Pair& p, const Vec3& n, const Vec3& m, double change) {
+  const double ends = std::max(p.width(n).hi, p.width(m).hi);
+  if (!std::isfinite(ends)) return true;  // one of them leads into a half-space, or along it
+  const double level = std::max(0.0, ends) + 2 * (change + p.rounding());
+  const double angle = angle_between(n, m);
+  // On the arc w(x) <= ends / cos(angle/2), since w is convex along the chord.
+  if (ends <= level * std::cos(angle / 2)) return false;
+  Vec3 aside = m - n.dot(m) * n;
+  if (!(aside.norm() > 0)) aside = n.unitOrthogonal();
+  aside.normalize();
+  for (int i = 1; i < arc_steps; ++i) {
+    const double t = angle * i / arc_steps;
+    if (p.width(std::cos(t) * n + std::sin(t) * aside).lo > level) return true;
+  }
+  return false;
+}
+
+std::string vector_text(const Vec3& v) { return fmt::format("({:.6g} {:.6g} {:.6g})", v.x(), v.y(), v.z()); }
+
+// "face", "edge" or "point" of the body that is ahead along n.
+std::string_view feature(const Placed& body, const Vec3& n, double slack) {
+  const Shape plane = HalfSpace{-n, 0};
+  const Placed ahead{&plane, Pose{}};
+  if (kind_of(*body.shape) == ShapeKind::half_space) return "plane";
+  using enum referee::ContactRegion::Kind;
+  switch (referee::contact_region(body, ahead, n, slack).kind) {
+    case polygon:
+      return "face";
+    case segment:
+      return "edge";
+    case point:
+      return "point";
+    case none:
+      break;
+  }
+  return "nothing";
+}
+
+std::string features(const Pair& p, const Vec3& n) {
+  const double slack = referee::contact_slack_factor * p.scale();
+  return fmt::format("{} of {} on {} of {}", feature(p.after.truth.placed(0, p.q.a), n, slack), p.q.a,
+                     feature(p.after.truth.placed(0, p.q.b), -n, slack), p.q.b);
+}
+
+FlickerReport report(const Pair& p, Flicker f, int frame, double amount, std::string words) {
+  FlickerReport r{f, frame, p.q.question, p.q.a, p.q.b, Vec3::Zero(), Vec3::Zero(), amount, std::move(words)};
+  if (p.before.answer.normal) r.before = *p.before.answer.normal;
+  if (p.after.answer.normal) r.after = *p.after.answer.normal;
+  return r;
+}
+
+// The normal left its feature. Was there a reason to?
+void judge_jump(const Pair& p, int frame, const std::array<Vec3, 3>& kept, const Vec3& now, double angle,
+                FrameChange& out) {
+  const referee::Bracket new_width = p.width(now);
+  bool better_than_all = true;
+  const Vec3* better = nullptr;
+  for (const Vec3& n : kept) {
+    const referee::Bracket w = p.width(n);
+    better_than_all &= new_width.hi < w.lo;
+    if (w.hi < new_width.lo && (!better || w.hi < p.width(*better).hi)) better = &n;
+  }
+  const Vec3& shown = better ? *better : kept[0];
+  const std::string numbers =
+      fmt::format("from {} to {}, {:.4g} rad: the old one needs {:.12g}, the new one {:.12g}",
+                  vector_text(shown), vector_text(now), angle, p.width(shown).lo, new_width.hi);
+  if (better_than_all) {
+    out.true_switch = true;
+    out.switch_words = fmt::format("{}; {} before, {} now", numbers, features(p, shown), features(p, now));
+  } else if (better) {
+    out.flickers.push_back(report(p, Flicker::needless, frame, angle, "the normal jumps " + numbers));
+  } else {
+    out.flickers.push_back(report(p, Flicker::tied, frame, angle,
+                                  "the normal jumps " + numbers + ", which proves neither to need more"));
+  }
+}
+
+// By how much the stated normal turns more than the referee's; 0 where one of the two is on another feature.
+double restlessness(const Pair& p, double stated_turn) {
+  constexpr double same_feature = 0.1;  // rad
+  const Vec3 &was = p.before.truth.pair(0, p.q.a, p.q.b).normal,
+             &is = p.after.truth.pair(0, p.q.a, p.q.b).normal;
+  if (angle_between(was, *p.before.answer.normal) > same_feature ||
+      angle_between(is, *p.after.answer.normal) > same_feature)
+    return 0;
+  double least = std::numbers::pi;
+  for (const Carried& w : p.ways) least = std::min(least, angle_between(w.turn * was, is));
+  return std::max(0.0, stated_turn - least);
+}
+
+/// True if the normal did not leave its feature.
+bool judge_normals(const Pair& p, int frame, FrameChange& out) {
+  const Vec3 now = p.after.answer.normal->normalized();
+  std::array<Vec3, 3> kept;
+  double angle = std::numbers::pi;
+  bool steady = false;
+  for (std::size_t k = 0; k < kept.size(); ++k) {
+    kept[k] = p.ways[k].turn * p.before.answer.normal->normalized();
+    angle = std::min(angle, angle_between(kept[k], now));
+    steady = steady || !has_ridge_between(p, kept[k], now, p.ways[k].change);
+  }
+  if (steady)
+    out.restless = restlessness(p, angle);
+  else
+    judge_jump(p, frame, kept, now, angle, out);
+  return steady;
+}
+
+// The depth and the distance change at most as much as the motion's widths do.
+void judge_number(const Pair& p, int frame, std::optional<double> was, std::optional<double> is,
+                  FrameChange& out) {
+  if (!was || !is || !std::isfinite(*was) || !std::isfinite(*is)) return;
+  const double change = std::abs(*is - *was), most = p.least_change() + 2 * p.rounding();
+  if (!(change > most)) return;
+  const std::string_view what = p.q.question == Question::contact ? "depth" : "distance";
+  out.flickers.push_back(
+      report(p, Flicker::depth, frame, change - most,
+             fmt::format("the {} goes from {:.9g} to {:.9g}; the motion changes it by at most {:.6g}", what,
+                         *was, *is, p.least_change())));
+}
+
+void judge_verdicts(const Pair& p, int frame, FrameChange& out) {
+  const auto &was = p.before.answer.overlap, &is = p.after.answer.overlap;
+  if (!was || !is || *was == *is) return;
+  const referee::PairTruth &t0 = p.before.truth.pair(0, p.q.a, p.q.b),
+                           &t1 = p.after.truth.pair(0, p.q.a, p.q.b);
+  if (t0.verdict != t1.verdict || t0.verdict == referee::Verdict::undecided) return;
+  const referee::Bracket gap = *is == (t1.verdict == referee::Verdict::overlap) ? t0.gap : t1.gap;
+  const double least = std::max(0.0, std::max(gap.lo, -gap.hi));
+  out.flickers.push_back(
+      report(p, Flicker::verdict, frame, least,
+             fmt::format("the overlap is {} after it was {}; both frames {}, by at least {:.6g}",
+                         *is ? "stated" : "denied", *was ? "stated" : "denied",
+                         t1.verdict == referee::Verdict::overlap ? "overlap" : "are apart", least)));
+}
+
+using Points = std::vector<Vec3>;
+
+Points points_of(const Observation& o) {
+  Points all;
+  for (const ManifoldPoint& m : o.manifold)
+    if (m.position.allFinite()) all.push_back(m.position);
+  return all;
+}
+
+double distance_from(const Vec3& p, const Points& all) {
+  double least = (p - all.front()).norm();
+  for (const Vec3& q : all) least = std::min(least, (p - q).norm());
+  return least;
+}
+
+// The largest distance of a point of either set from the other.
+double set_distance(const Points& x, const Points& y) {
+  double worst = 0;
+  for (const Vec3& p : x) worst = std::max(worst, distance_from(p, y));
+  for (const Vec3& p : y) worst = std::max(worst, distance_from(p, x));
+  return worst;
+}
+
+Points moved(const Carried& way, Points all) {
+  for (Vec3& p : all) p = way.point(p);
+  return all;
+}
+
+referee::ContactRegion region(const Pair& p, const AnsweredFrame& f, double slack) {
+  return referee::contact_region(f.truth.placed(0, p.q.a), f.truth.placed(0, p.q.b), *f.answer.normal, slack);
+}
+
+bool keeps_corners(const referee::ContactRegion& was, const referee::ContactRegion& is) {
+  return was.kind == is.kind && was.kind != referee::ContactRegion::Kind::none &&
+         was.vertices.size() == is.vertices.size();
+}
+
+// How far the corners of the contact region move, seen in each of the three ways: the most over the regions
+// that engines may mean, from what lies in one plane to all that lies deeper than the other body's plane.
+// Empty if one of these regions gets other corners.
+std::optional<std::array<double, 3>> moved_corners(const Pair& p) {
+  constexpr int levels = 8;
+  const double least = referee::contact_slack_factor * p.scale();
+  const double most = std::max(2 * least, p.deepest());
+  std::array<double, 3> moved_most{};
+  for (int i = 0; i < levels; ++i) {
+    const double slack = least * std::pow(most / least, static_cast<double>(i) / (levels - 1));
+    const referee::ContactRegion was = region(p, p.before, slack), is = region(p, p.after, slack);
+    if (!keeps_corners(was, is)) return std::nullopt;
+    for (std::size_t k = 0; k < moved_most.size(); ++k)
+      moved_most[k] = std::max(
+          moved_most[k], set_distance(moved(p.ways[k], was.vertices), is.vertices) + was.error + is.error);
+  }
+  return moved_most;
+}
+
+// The numbers that the points of `is` have in `was`, if they are the same points and clearly so.
+std::optional<std::vector<std::size_t>> places(const Points& was, const Points& is) {
+  constexpr double clearly = 0.5;  // of the distance of the second nearest
+  std::vector<std::size_t> numbers;
+  for (const Vec3& p : is) {
+    std::vector<std::pair<double, std::size_t>> near;
+    for (std::size_t i = 0; i < was.size(); ++i) near.emplace_back((p - was[i]).norm(), i);
+    std::sort(near.begin(), near.end());
+    if (!(near[0].first < clearly * near[1].first)) return std::nullopt;
+    numbers.push_back(near[0].second);
+  }
+  auto sorted = numbers;
+  std::sort(sorted.begin(), sorted.end());
+  for (std::size_t i = 0; i < sorted.size(); ++i)
+    if (sorted[i] != i) return std::nullopt;
+  return numbers;
+}
+
+bool is_reordered(const Pair& p, const Points& was, const Points& is) {
+  if (was.size() < 2) return false;
+  return std::all_of(p.ways.begin(), p.ways.end(), [&](const Carried& way) {
+    const auto numbers = places(moved(way, was), is);
+    return numbers && !std::is_sorted(numbers->begin(), numbers->end());
+  });
+}
+
+// How much farther the points move than the region's corners, at least, however they are carried along.
+double excess_of_points(const Pair& p, const Points& was, const Points& is) {
+  const double slack = 4 * (referee::contact_slack_factor * p.scale() + p.rounding());
+  std::array<double, 3> beyond{};
+  for (std::size_t k = 0; k < beyond.size(); ++k)
+    beyond[k] = set_distance(moved(p.ways[k], was), is) - p.ways[k].change - slack;
+  if (!(*std::min_element(beyond.begin(), beyond.end()) > 0)) return 0;
+  const auto of_region = moved_corners(p);
+  if (!of_region) return 0;
+  for (std::size_t k = 0; k < beyond.size(); ++k) beyond[k] -= (*of_region)[k];
+  return *std::min_element(beyond.begin(), beyond.end());
+}
+
+void judge_manifolds(const Pair& p, int frame, FrameChange& out) {
+  const Points was = points_of(p.before.answer), is = points_of(p.after.answer);
+  if (was.size() != is.size()) {
+    if (!moved_corners(p)) return;
+    out.flickers.push_back(report(
+        p, Flicker::count, frame, std::abs(static_cast<double>(is.size()) - static_cast<double>(was.size())),
+        fmt::format("{} points after {}; the contact region keeps its corners", is.size(), was.size())));
+    return;
+  }
+  if (is.empty()) return;
+  if (const double excess = excess_of_points(p, was, is); excess > 0)
+    out.flickers.push_back(
+        report(p, Flicker::points, frame, excess,
+               fmt::format("the points move {:.6g} farther than the corners of the contact region", excess)));
+  else if (is_reordered(p, was, is))
+    out.flickers.push_back(
+        report(p, Flicker::order, frame, 0, "the points are the same, listed in another order"));
+}
+
+std::string with_and_without(std::string_view with, std::string_view without) {
+  return fmt::format("{} after the earlier frames, {} without them", with, without);
+}
+std::string verdict_text(const Observation& o) {
+  return !o.overlap ? "no verdict" : *o.overlap ? "overlap" : "apart";
+}
+std::string number_text(const std::optional<double>& x) {
+  return x ? fmt::format("{:.9g}", *x) : "no number";
+}
+std::string normal_text(const Observation& o) {
+  return o.normal ? "normal " + vector_text(*o.normal) : "no normal";
+}
+bool is_beyond(double tau, const std::optional<double>& x, const std::optional<double>& y) {
+  return x.has_value() != y.has_value() || (x && !(std::abs(*x - *y) <= tau));
+}
+// A direction within τ of the best may be off by an angle of √(τ/L), to either side.
+bool normals_differ(const std::optional<Vec3>& x, const std::optional<Vec3>& y, double tau_in_l) {
+  return x.has_value() != y.has_value() || (x && !(angle_between(*x, *y) <= 2 * std::sqrt(tau_in_l)));
+}
+
+}  // namespace
+
+FrameChange change_between(const AnsweredFrame& before, const AnsweredFrame& after, const Query& q,
+                           const EngineCard& card, int frame) {
+  FrameChange out;
+  const Observation &was = before.answer, &is = after.answer;
+  if (was.outcome != Outcome::answered || is.outcome != Outcome::answered) return out;
+  out.compared = true;
+  const Pair p{before, after, q, card, carried(before.truth.scene(), after.truth.scene(), q.a, q.b)};
+  judge_verdicts(p, frame, out);
+  if (has_surface(after.truth.scene(), q)) return out;
+  if (q.question == Question::distance) judge_number(p, frame, was.distance, is.distance, out);
+  if (q.question != Question::contact || !states_contact(was) || !states_contact(is)) return out;
+  if (!p.overlap(before) || !p.overlap(after)) return out;
+  judge_number(p, frame, was.depth, is.depth, out);
+  if (judge_normals(p, frame, out)) judge_manifolds(p, frame, out);
+  return out;
+}
+
+std::string difference_by_state(const EngineCard& card, Truth& truth, const Query& q,
+                                const Observation& in_order, const Observation& alone) {
+  if (in_order.outcome != alone.outcome)
+    return with_and_without(to_string(in_order.outcome), to_string(alone.outcome));
+  if (in_order.outcome != Outcome::answered) return "";
+  const double l = truth.scale(q.a, q.b);
+  const double tau = std::max(tau_of(card, in_order, truth.scene(), q.a, q.b, l),
+                              tau_of(card, alone, truth.scene(), q.a, q.b, l));
+  if (in_order.overlap != alone.overlap) {
+    const referee::Bracket gap = truth.pair(0, q.a, q.b).gap;
+    const bool is_within = std::max(gap.lo, -gap.hi) <= tau + contact_offset(card);
+    return is_within ? "" : with_and_without(verdict_text(in_order), verdict_text(alone));
+  }
+  for (const auto& [x, y] :
+       {std::pair(in_order.distance, alone.distance), std::pair(in_order.depth, alone.depth)})
+    if (is_beyond(tau, x, y)) return with_and_without(number_text(x), number_text(y));
+  if (normals_differ(in_order.normal, alone.normal, tau / l))
+    return with_and_without(normal_text(in_order), normal_text(alone));
+  // Kept points are what a documented tolerance is for: each was judged in its frame.
+  if (believed_claim(card, in_order) > 0) return "";
+  const Points x = points_of(in_order), y = points_of(alone);
+  if (x.size() != y.size())
+    return with_and_without(fmt::format("{} points", x.size()), fmt::format("{} points", y.size()));
+  if (const double apart = x.empty() ? 0 : set_distance(x, y); !(apart <= tau + std::sqrt(tau * l)))
+    return fmt::format("the points are {:.6g} apart from those without the earlier frames", apart);
+  return "";
+}
+
+}  // namespace touchstone::fuzz
