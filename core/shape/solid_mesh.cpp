@@ -128,8 +128,9 @@ class Surface {
   }
 
  private:
-  // Within these, the exact predicates are exact (core/math/expansion.h).
   std::optional<SolidFlaw> range_flaw() {
+    // Coordinates other than 0 lie between these: there the predicates are exact (core/math/expansion.h).
+    // Tested by: tests/core "what is no surface of a solid is refused, and where".
     constexpr double least = 1e-95, most = 1e95;
     std::vector<bool> used(mesh_.vertices.size(), false);
     for (const auto& t : mesh_.triangles)

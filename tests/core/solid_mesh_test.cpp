@@ -119,6 +119,11 @@ TEST_CASE("what is no surface of a solid is refused, and where", "[solid]") {
   TriangleMesh spare = good;
   spare.vertices.push_back({0, 0, 0});
   CHECK(flaw(spare) == "vertices[8]: belongs to no triangle of the solid");
+  for (const double x : {0.9e-95, 1.1e95}) {
+    TriangleMesh out_of_range = good;
+    out_of_range.vertices[2].y() = x;
+    CHECK(begins(flaw(out_of_range), "vertices[2]: has a coordinate that is not within"));
+  }
   TriangleMesh crossing = good;
   add_box(crossing, {1, 1, 1}, {1.5, 0.5, 0.25});
   CHECK(begins(flaw(crossing), "triangles["));
