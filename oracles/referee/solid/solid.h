@@ -54,6 +54,11 @@ bool is_inside(const Placed& solid, const Rational3& point_w);
 /// they are apart.
 std::optional<Rational3> point_inside(const Placed& a, const Placed& b);
 
+/// Points of the solid from which its whole surface is seen: the hull of these and of any triangle is in the
+/// solid. Exact. None for a solid with a hole or a cavity, and perhaps none where only a small part of it
+/// sees all.
+std::vector<Vec3> kernel_points(const TriangleMesh& surface);
+
 // The depth of a pair of which one body is a solid that is not convex, the other another solid or convex, and
 // that overlaps.
 

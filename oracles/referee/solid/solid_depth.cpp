@@ -1,7 +1,7 @@
 // Brackets of depths with solids. A depth is the least motion that separates. Whatever convex sets lie inside
-// the two bodies, each motion that separates the bodies separates these sets: the depth of two triangles, or
-// of a ball and the other body, is a lower bound. A place where the bodies are certainly apart gives an upper
-// bound.
+// the two bodies, each motion that separates the bodies separates these sets: the depth of two triangles, of
+// a ball and the other body, or of two convex pieces is a lower bound. A place where the bodies are certainly
+// apart gives an upper bound.
 #include <algorithm>
 #include <cmath>
 
@@ -18,9 +18,11 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 // before is clear. More of them narrow a bracket.
 constexpr std::size_t most_directions = 8;
 constexpr int most_steps = 64, most_proof_steps = 40;
+// Pairs of convex pieces of which the depth is found. More of them narrow a bracket.
+constexpr int most_pieces = 24;
 // In units of the bodies' size: bodies moved until they touch are moved by this more, which is several
-// roundings.
-constexpr double beyond_touching = 0x1p-50;
+// roundings. A bracket four times as wide is as narrow as it gets.
+constexpr double beyond_touching = 0x1p-50, narrow_enough = 0x1p-48;
 
 Vec3 translation_of(const Placed& p) {
   return std::visit([](const auto& x) -> Vec3 { return x.translation; }, p.pose);
@@ -107,6 +109,22 @@ class Pair {
     return depth;
   }
 
+  /// Proven: no shorter motion of B separates them, by the convex pieces in both that n leads out of about as
+  /// far as out of the bodies. `known`: a bracket; its lower end where nothing better is found.
+  double depth_of_pieces(const Vec3& n, Bracket known) const {
+    const auto is_narrow = [&] { return !(known.hi - known.lo > narrow_enough * size_); };
+    if (is_narrow() || !std::isfinite(known.hi)) return known.lo;
+    const std::vector<Operand> x = pieces_of(a_, *as_a_), y = pieces_of(b_, *as_b_);
+    int found = 0;
+    for (const auto& [i, j] : by_width(x, y, n, known)) {
+      if (found == most_pieces || is_narrow()) break;
+      const ConvexTruth t = judge_convex(x[i], y[j]);
+      found += t.verdict == Verdict::overlap;
+      known.lo = std::max(known.lo, -round_up(t.hi));
+    }
+    return known.lo;
+  }
+
   struct Towards {
     double depth;
     Vec3 n;
@@ -143,6 +161,56 @@ class Pair {
             judge_convex(p, y[j], {}, Effort::verdict_only).verdict != Verdict::disjoint)
           f(p, y[j]);
     }
+  }
+
+  // Convex sets in the body: with the kernel, each triangle spans a piece.
+  std::vector<Operand> pieces_of(const Placed& p, const Placed& surface) const {
+    const Vec3 origin = translation_of(a_);
+    const TriangleMesh* mesh = triangles_if(*p.shape);
+    const std::vector<Vec3> kernel = mesh ? kernel_points(*mesh) : std::vector<Vec3>{};
+    if (kernel.empty()) return parts_of(surface, origin);
+    std::vector<Operand> r;
+    spend(static_cast<std::int64_t>(mesh->triangles.size() * kernel.size()) * 50);
+    for (const auto& t : mesh->triangles) {
+      std::vector<Vec3> points = kernel;
+      for (const int v : t) {
+        const Vec3& corner = mesh->vertices[static_cast<std::size_t>(v)];
+        if (std::ranges::find(kernel, corner) == kernel.end()) points.push_back(corner);
+      }
+      Operand piece{make_body(points, 0, frame_of(p, origin)), std::nullopt};
+      piece.exact = ExactBody{std::move(points), 0, p.pose};
+      r.push_back(std::move(piece));
+    }
+    return r;
+  }
+
+  // Pairs whose boxes meet and of which the depth may exceed what is known; those first that the way along n
+  // out of is nearest to that out of the bodies.
+  static std::vector<std::pair<std::size_t, std::size_t>> by_width(const std::vector<Operand>& x,
+                                                                   const std::vector<Operand>& y,
+                                                                   const Vec3& n, const Bracket& known) {
+    struct Width {
+      double beside;
+      std::size_t i, j;
+    };
+    std::vector<Width> found;
+    std::vector<Aabb> boxes;
+    for (const Operand& q : y) boxes.push_back(box_of(q.body));
+    spend(static_cast<std::int64_t>(x.size() * y.size()) * 10);
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      const Aabb box = box_of(x[i].body);
+      for (std::size_t j = 0; j < y.size(); ++j) {
+        if (!overlaps(box, boxes[j])) continue;
+        spend(static_cast<std::int64_t>(x[i].body.points.size() + y[j].body.points.size()) * 5);
+        const double width = width_of(x[i], y[j], n);
+        if (width > known.lo) found.push_back({std::abs(width - known.hi), i, j});
+      }
+    }
+    std::stable_sort(found.begin(), found.end(),
+                     [](const Width& p, const Width& q) { return p.beside < q.beside; });
+    std::vector<std::pair<std::size_t, std::size_t>> r;
+    for (const Width& w : found) r.emplace_back(w.i, w.j);
+    return r;
   }
 
   // An upper bound of how far q must move along n to be beyond p.
@@ -250,7 +318,7 @@ SolidDepth depth_of_solids(const Placed& a, const Placed& b, std::span<const Vec
     r.depth.hi = s;
     r.normal = n;
   }
-  r.depth.lo = std::min(r.depth.lo, r.depth.hi);
+  r.depth.lo = std::min(pair.depth_of_pieces(r.normal, r.depth), r.depth.hi);
   return r;
 }
 
@@ -262,7 +330,8 @@ Bracket way_along(const Placed& a, const Placed& b, const Vec3& n) {
   const double least = beyond_touching * pair.size();
   Bracket r{0, clear_after(pair, u, infinity)};
   if (pair.is_clear(b)) return {0, 0};
-  double s = 0;
+  r.lo = std::max(0.0, pair.depth_of_pieces(u, r));
+  double s = r.lo;
   for (int step = 0; step < most_proof_steps; ++step) {
     const Place at = pair.moved(s, u);
     const double more = pair.depth_at_least(at.b);
