@@ -15,9 +15,10 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Directions tried for one pair, and motions along one of them: each passes a triangle at least.
+// Directions tried for one pair, and motions along one of them: each passes a triangle at least. Then motions
+// back along it, and directions found where the bodies touch at its end.
 constexpr std::size_t most_directions = 96;
-constexpr int most_steps = 1024;
+constexpr int most_steps = 1024, most_returns = 32, most_turns = 16;
 
 PlacedShape moved(const PlacedShape& p, const Vec3& by) {
   PlacedShape r = p;
@@ -51,6 +52,15 @@ struct Met {
   std::size_t a, b;
 };
 
+// How far the parts reach along a direction: A's forward, B's backward.
+struct Reach {
+  Vec3 n;
+  double apart;
+  std::vector<double> a, b;
+  // How far B's part must move along n to be beyond A's.
+  double width(const Met& m) const { return a[m.a] - b[m.b] - apart; }
+};
+
 class Search {
  public:
   Search(const SeenShape& a, const SeenShape& b)
@@ -68,13 +78,9 @@ class Search {
 
   std::optional<WayOut> run(const DistanceAnswer& apart) {
     WayOut best{Vec3::Zero(), infinity, 0, {}};
-    for (const Vec3& n : directions(apart)) {
-      const double way = way_along(n, best.depth);
-      if (way >= best.depth) continue;
-      best.depth = way;
-      best.normal = n;
-    }
+    for (const Vec3& n : directions(apart)) take_if_shorter(n, best);
     if (!std::isfinite(best.depth)) return std::nullopt;
+    turn(best);
     best.at_least = std::min(at_least_, best.depth);
     const Vec3 way = (best.depth + clear_) * best.normal;
     const DistanceAnswer d = distance(a_.seen(), moved(b_.seen(), way));
@@ -124,10 +130,18 @@ class Search {
     return r;
   }
 
-  // How far B's part must move along n to be beyond A's.
-  double width(const Met& m, const Vec3& n) const {
-    return extent_along(parts_a_[m.a].placed, n).hi - extent_along(parts_b_[m.b].placed, n).lo -
-           n.dot(apart_);
+  Reach reach(const Vec3& n) const {
+    Reach r{n, n.dot(apart_), {}, {}};
+    const auto along = [&](const PlacedShape& whole) {
+      return Vec3(rotation_matrix(whole.pose.rotation).transpose() * n);
+    };
+    const auto extent = [](const Shape& shape, const Vec3& local) {
+      return std::visit([&](const auto& s) { return s.extent_along(local); }, shape);
+    };
+    const Vec3 in_a = along(a_.placed()), in_b = along(b_.placed());
+    for (const Part& p : parts_a_) r.a.push_back(extent(*p.placed.shape, in_a).hi);
+    for (const Part& p : parts_b_) r.b.push_back(extent(*p.placed.shape, in_b).lo);
+    return r;
   }
 
   bool is_inside(const Vec3& by) const {
@@ -136,27 +150,59 @@ class Search {
   }
 
   // The next place along n where B is beyond another part, for bodies one of which is inside the other.
-  double next_part(const Vec3& n, double from) const {
+  double next_part(const Reach& r, double from) const {
     double next = infinity;
     for (std::size_t i = 0; i < parts_a_.size(); ++i)
       for (std::size_t j = 0; j < parts_b_.size(); ++j)
-        if (const double w = width({i, j}, n); w > from) next = std::min(next, w);
+        if (const double w = r.width({i, j}); w > from) next = std::min(next, w);
     return next;
   }
 
-  // The least motion along n after which B is beyond each part that it met on the way, and clear of A;
-  // infinity when it is not less than `enough`.
+  // A motion along n after which B is beyond each part that it met on the way, and clear of A; infinity when
+  // it is not less than `enough`.
   double way_along(const Vec3& n, double enough) const {
+    const Reach r = reach(n);
     double way = 0;
     for (int step = 0; step < most_steps && way < enough; ++step) {
       const Vec3 by = (way + clear_) * n;
       const std::vector<Met> met = met_after(by);
       if (met.empty() && !is_inside(by)) return way;
-      double next = met.empty() ? next_part(n, way + clear_) : way + clear_;
-      for (const Met& m : met) next = std::max(next, width(m, n));
+      double next = met.empty() ? next_part(r, way + clear_) : way + clear_;
+      for (const Met& m : met) next = std::max(next, r.width(m));
       way = next;
     }
     return infinity;
+  }
+
+  DistanceAnswer distance_after(double way, const Vec3& n) const {
+    return distance(a_.seen(), moved(b_.seen(), (way + clear_) * n));
+  }
+
+  // Back from a place where B is clear until the two touch: as far as they are apart, B may move.
+  double shortened(double way, const Vec3& n) const {
+    for (int step = 0; step < most_returns; ++step) {
+      const DistanceAnswer d = distance_after(way, n);
+      if (d.outcome != Outcome::answered || !(d.distance > 2 * clear_)) break;
+      way = std::max(0.0, way - (d.distance - clear_));
+    }
+    return way;
+  }
+
+  bool take_if_shorter(const Vec3& n, WayOut& best) const {
+    const double way = way_along(n, best.depth);
+    if (!(way < best.depth)) return false;
+    best.depth = shortened(way, n);
+    best.normal = n;
+    return true;
+  }
+
+  // Where the two touch at the end of the way, they may be apart sooner along the normal of that contact.
+  void turn(WayOut& best) const {
+    for (int step = 0; step < most_turns; ++step) {
+      const DistanceAnswer d = distance_after(best.depth, best.normal);
+      if (d.outcome != Outcome::answered || d.normal.isZero(0)) return;
+      if (!take_if_shorter(d.normal, best)) return;
+    }
   }
 
   struct Towards {

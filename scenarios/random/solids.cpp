@@ -16,6 +16,7 @@ ShapeKind partner(Rng& rng) {
   if (pick < 2) return ShapeKind::half_space;
   if (pick == 2) return ShapeKind::mesh;
   if (pick < 6) return ShapeKind::solid_mesh;
+  if (pick < 8 && may_draw(ShapeKind::rounded_box)) return ShapeKind::rounded_box;
   return random_convex_kind(rng);
 }
 

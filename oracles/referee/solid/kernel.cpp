@@ -64,11 +64,13 @@ std::vector<Vec3> kernel_points(const TriangleMesh& surface) {
   add(Vec3::Zero());
   if (found.empty()) return found;
   const Vec3 centre = mean_of(found);
-  for (int i = 0; i < 27; ++i) {
-    const Vec3 direction(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
-    if (!direction.isZero(0))
-      add(centre + direction * (way_to_planes(surface, centre, direction) * (1 - inward)));
-  }
+  for (const int x : {-1, 0, 1})
+    for (const int y : {-1, 0, 1})
+      for (const int z : {-1, 0, 1}) {
+        const Vec3 direction(x, y, z);
+        const double way = direction.isZero(0) ? 0 : way_to_planes(surface, centre, direction);
+        add(centre + direction * (way * (1 - inward)));
+      }
   return found;
 }
 

@@ -18,6 +18,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 // before is clear. More of them narrow a bracket.
 constexpr std::size_t most_directions = 8;
 constexpr int most_steps = 64, most_proof_steps = 40;
+// Steps back from a clear place towards a nearer one.
+constexpr int most_returns = 8;
 // Pairs of convex pieces of which the depth is found. More of them narrow a bracket.
 constexpr int most_pieces = 24;
 // In units of the bodies' size: bodies moved until they touch are moved by this more, which is several
@@ -63,11 +65,14 @@ class Pair {
     std::size_t i, j;
   };
 
-  bool is_clear(const Placed& b) const {
+  /// How far B there is from A, at least; nullopt where it may meet it.
+  std::optional<double> clearance(const Placed& b) const {
     const Placed surface_b = with_translation(*as_b_, translation_of(b));
-    if (judge_pair(*as_a_, surface_b).verdict != Verdict::disjoint) return false;
-    return !point_inside(a_, b);
+    const PairTruth t = judge_pair(*as_a_, surface_b);
+    if (t.verdict != Verdict::disjoint || point_inside(a_, b)) return std::nullopt;
+    return std::max(0.0, t.gap.lo);
   }
+  bool is_clear(const Placed& b) const { return clearance(b).has_value(); }
 
   /// How much farther along n the parts of B that meet those of A must move; 0 if none meet.
   double way_past_parts(const Placed& b, const Vec3& n) const {
@@ -264,6 +269,21 @@ class Pair {
   double size_ = 0;
 };
 
+// Back along n from a clear place: as far as the bodies are apart, B may move.
+double nearest_clear(const Pair& pair, const Vec3& n, double s, double apart) {
+  const double little = beyond_touching * pair.size();
+  double nearest = pair.moved(s, n).hi;
+  for (int step = 0; step < most_returns && apart > 4 * little; ++step) {
+    s -= apart - little;
+    const Place at = pair.moved(s, n);
+    const auto clear = pair.clearance(at.b);
+    if (!clear || !(s >= 0)) break;
+    nearest = std::min(nearest, at.hi);
+    apart = *clear;
+  }
+  return nearest;
+}
+
 // An upper bound of the least motion along n that separates them; infinity if none is found that is less than
 // `enough`.
 double clear_after(const Pair& pair, const Vec3& n, double enough) {
@@ -272,7 +292,8 @@ double clear_after(const Pair& pair, const Vec3& n, double enough) {
   for (int step = 0; step < most_steps; ++step) {
     const Place at = pair.moved(s, n);
     if (!(at.hi < enough)) return infinity;
-    if (step > 0 && pair.is_clear(at.b)) return at.hi;
+    if (step > 0)
+      if (const auto apart = pair.clearance(at.b)) return nearest_clear(pair, n, s, *apart);
     double more = pair.way_past_parts(at.b, n);
     if (more == 0) more = pair.way_past_one(at.b, n);
     if (!std::isfinite(more)) return infinity;
