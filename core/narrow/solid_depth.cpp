@@ -18,7 +18,9 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 // Directions tried for one pair, and motions along one of them: each passes a triangle at least. Then motions
 // back along it, and directions found where the bodies touch at its end.
 constexpr std::size_t most_directions = 96;
-constexpr int most_steps = 1024, most_returns = 32, most_turns = 16;
+constexpr int most_steps = 1024, most_returns = 32, most_turns = 256;
+// A way is followed back from its end when that is at most this many times as far as the best way known.
+constexpr double most_overshoot = 2;
 
 PlacedShape moved(const PlacedShape& p, const Vec3& by) {
   PlacedShape r = p;
@@ -178,20 +180,30 @@ class Search {
     return distance(a_.seen(), moved(b_.seen(), (way + clear_) * n));
   }
 
-  // Back from a place where B is clear until the two touch: as far as they are apart, B may move.
+  bool is_clear(double way, const Vec3& n) const {
+    const Vec3 by = (way + clear_) * n;
+    return met_after(by).empty() && !is_inside(by);
+  }
+
+  // Back from a place where B is clear until the two touch. As far as they are apart, B may move; as far as
+  // along the nearest planes between them, if it is then clear of all else.
   double shortened(double way, const Vec3& n) const {
     for (int step = 0; step < most_returns; ++step) {
       const DistanceAnswer d = distance_after(way, n);
       if (d.outcome != Outcome::answered || !(d.distance > 2 * clear_)) break;
-      way = std::max(0.0, way - (d.distance - clear_));
+      const double apart = d.distance - clear_, speed = n.dot(d.normal), to_plane = way - apart / speed;
+      const bool is_far = speed > 0 && to_plane >= 0 && is_clear(to_plane, n);
+      way = is_far ? to_plane : std::max(0.0, way - apart);
     }
     return way;
   }
 
   bool take_if_shorter(const Vec3& n, WayOut& best) const {
-    const double way = way_along(n, best.depth);
+    const double far = way_along(n, most_overshoot * best.depth);
+    if (!std::isfinite(far)) return false;
+    const double way = shortened(far, n);
     if (!(way < best.depth)) return false;
-    best.depth = shortened(way, n);
+    best.depth = way;
     best.normal = n;
     return true;
   }

@@ -89,7 +89,7 @@ inline Scene nasty_scene(Rng& rng) {
     b.shape = static_cast<int>(rng.below(s.shapes.size()));
     b.pose = nasty_pose(rng);
     const ShapeKind kind = kind_of(s.shapes[static_cast<std::size_t>(b.shape)]);
-    const bool can_move = kind != ShapeKind::mesh && kind != ShapeKind::half_space;
+    const bool can_move = is_convex(kind);
     if (can_move && rng.chance(0.5)) b.motion = Motion{nasty_vec3(rng), nasty_vec3(rng)};
     if (rng.chance(0.2)) b.motion = Motion{};
     b.is_static = rng.chance(0.3);
