@@ -75,7 +75,7 @@ Json engine_json(const Case& c, const EnginePtr& engine, bool wrong) {
 bool has_large_mesh(const Scene& scene) {
   constexpr std::size_t large = 200;
   return std::any_of(scene.shapes.begin(), scene.shapes.end(), [](const Shape& s) {
-    const auto* mesh = std::get_if<TriangleMesh>(&s);
+    const TriangleMesh* mesh = triangles_if(s);
     return mesh && mesh->triangles.size() > large;
   });
 }

@@ -14,7 +14,7 @@
 #define TOUCHSTONE_CAPTURE_H
 #include <stdio.h>
 typedef struct touchstone_captured_body {
-  const char *type;      /* sphere, box, capsule, cylinder, cone, ellipsoid, hull, half_space, mesh, rounded_box */
+  const char *type;      /* sphere, box, capsule, cylinder, cone, ellipsoid, hull, half_space, mesh, rounded_box, solid_mesh */
   const double *numbers; /* the fields of `touchstone answer --help` in order; hull, mesh: the points */
   size_t count;          /* how many numbers */
   const double *pose;    /* 7, or NULL */

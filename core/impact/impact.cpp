@@ -7,6 +7,7 @@
 #include "core/math/roundoff.h"
 #include "core/narrow/narrow_phase.h"
 #include "core/narrow/shape_pairs.h"
+#include "core/narrow/solid.h"
 #include "core/narrow/unit_scale.h"
 #include "core/tolerance.h"
 
@@ -125,6 +126,31 @@ ImpactAnswer moving(const MovingShape& a, const MovingShape& b, ImpactDetail det
   return is_mirrored ? mirrored(row.function(b, a, detail, row)) : row.function(a, b, detail, row);
 }
 
+MovingShape seen(const narrow::SeenShape& shape, const Motion& motion) {
+  MovingShape r;
+  static_cast<PlacedShape&>(r) = shape.seen();
+  r.motion = motion;
+  return r;
+}
+
+// What is outside a solid meets its surface before its inside.
+ImpactAnswer with_solid(const MovingShape& a, const MovingShape& b, ImpactDetail detail) {
+  const narrow::SeenShape x(a, b), y(b, a);
+  if (!narrow::contains_part(x, y) && !narrow::contains_part(y, x))
+    return time_of_impact(seen(x, a.motion), seen(y, b.motion), detail);
+  ImpactAnswer r;
+  r.toi = 0;
+  if (detail == ImpactDetail::time) return r;
+  const DistanceAnswer d = distance(a, b);
+  r.separation = std::min(0.0, d.distance);
+  r.normal_ab = d.normal;
+  r.witness_w = d.witness;
+  if (d.outcome == Outcome::answered) return r;
+  r.outcome = d.outcome;
+  r.toi.reset();
+  return r;
+}
+
 // A ball is invariant under rotation.
 MovingShape without_ineffective_rotation(MovingShape s) {
   const bool ball = std::visit(
@@ -148,6 +174,7 @@ ImpactAnswer time_of_impact(const MovingShape& first, const MovingShape& second,
   for (const MovingShape* s : {&a, &b})
     if (kind_of(*s->shape) == ShapeKind::half_space && moves(*s)) return unsupported();
   if (!moves(a) && !moves(b)) return at_rest(a, b, detail);
+  if (narrow::has_solid(a, b)) return with_solid(a, b, detail);
   const double way = std::max(a.motion.linear.cwiseAbs().maxCoeff(), b.motion.linear.cwiseAbs().maxCoeff());
   if (const int e = narrow::unit_scale(a, b, way); e != 0) {
     const narrow::ScaledPair<MovingShape> pair(a, b, e);

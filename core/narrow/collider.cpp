@@ -1,6 +1,7 @@
 #include "core/narrow/collider.h"
 
 #include "core/narrow/mesh.h"
+#include "core/narrow/solid.h"
 #include "core/narrow/unit_scale.h"
 
 namespace touchstone {
@@ -25,6 +26,7 @@ Collider::Collider(const Shape& shape, std::size_t least_graph)
     used_ = narrow::used_vertices(*mesh);
     if (used_.size() == mesh->vertices.size()) used_ = {};
   }
+  if (const auto* solid = std::get_if<SolidMesh>(&shape)) solid_ = std::make_shared<const SolidParts>(*solid);
   if (!is_bounded(kind_of(shape))) return;
   largest_length_ = tree_.nodes.empty() ? narrow::largest_length(shape)
                                         : std::max(tree_.nodes.front().lo.cwiseAbs().maxCoeff(),

@@ -14,6 +14,7 @@
 namespace touchstone {
 
 class Collider;
+struct SolidParts;  // core/narrow/solid.h
 
 /// A half-space in doubles: n·x <= offset with a unit normal n. `length`: of the normal as given, which both
 /// have been divided by.
@@ -67,7 +68,8 @@ class Collider {
   static constexpr std::size_t no_graph = static_cast<std::size_t>(-1);
 
   /// Refers to the shape, which outlives the collider, in place and unchanged. Hulls with at least
-  /// `least_graph` vertices get a graph (hull_graph.h), meshes a tree (mesh_tree.h).
+  /// `least_graph` vertices get a graph (hull_graph.h), meshes a tree (mesh_tree.h), solid meshes both
+  /// (solid.h).
   explicit Collider(const Shape& shape, std::size_t least_graph = hull_graph_least);
 
   PlacedShape at(const Pose& pose) const { return {*this, pose}; }
@@ -79,6 +81,8 @@ class Collider {
     return std::get<ConvexBody<R>>(bodies_);
   }
   const UnitHalfSpace& half_space() const { return half_space_; }
+  /// Null: not a solid mesh.
+  const SolidParts* solid() const { return solid_.get(); }
   const MeshTree* tree() const { return kind_of(*shape_) == ShapeKind::mesh ? &tree_ : nullptr; }
   /// A mesh's vertices that belong to a triangle.
   std::span<const Vec3> used_vertices() const;
@@ -94,6 +98,7 @@ class Collider {
   UnitHalfSpace half_space_{};
   MeshTree tree_;
   std::vector<Vec3> used_;  // empty: every vertex
+  std::shared_ptr<const SolidParts> solid_;
   double bounding_radius_ = 0, largest_length_ = 0;
 };
 

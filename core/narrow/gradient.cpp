@@ -8,7 +8,7 @@
 namespace touchstone {
 namespace {
 
-bool is_mesh(const PlacedShape& p) { return kind_of(*p.shape) == ShapeKind::mesh; }
+bool is_mesh(const PlacedShape& p) { return touchstone::is_mesh(*p.shape); }
 
 }  // namespace
 

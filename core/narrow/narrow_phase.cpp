@@ -2,6 +2,7 @@
 
 #include "core/narrow/flat_mesh.h"
 #include "core/narrow/pair_table.h"
+#include "core/narrow/solid.h"
 #include "core/narrow/wide_answer.h"
 
 namespace touchstone {
@@ -167,6 +168,7 @@ bool fast_contact(const PlacedShape& a, const PlacedShape& b, PairMemory* memory
 }  // namespace
 
 OverlapAnswer overlap(const PlacedShape& a, const PlacedShape& b, Arithmetic arithmetic, PairMemory* memory) {
+  if (narrow::has_solid(a, b)) return narrow::solid_overlap(a, b, arithmetic, memory);
   if (arithmetic == Arithmetic::float32) return overlap_alone<float>(a, b, memory);
   if (arithmetic == Arithmetic::float64_alone) return overlap_alone<double>(a, b, memory);
   FastAnswer<double> f;
@@ -177,6 +179,7 @@ OverlapAnswer overlap(const PlacedShape& a, const PlacedShape& b, Arithmetic ari
 
 DistanceAnswer distance(const PlacedShape& a, const PlacedShape& b, Arithmetic arithmetic,
                         PairMemory* memory) {
+  if (narrow::has_solid(a, b)) return narrow::solid_distance(a, b, arithmetic, memory);
   if (arithmetic == Arithmetic::float32) return distance_alone<float>(a, b, memory);
   if (arithmetic == Arithmetic::float64_alone) return distance_alone<double>(a, b, memory);
   DistanceAnswer r;
@@ -188,6 +191,7 @@ DistanceAnswer distance(const PlacedShape& a, const PlacedShape& b, Arithmetic a
 }
 
 ContactAnswer contact(const PlacedShape& a, const PlacedShape& b, Arithmetic arithmetic, PairMemory* memory) {
+  if (narrow::has_solid(a, b)) return narrow::solid_contact(a, b, arithmetic, memory);
   ContactAnswer r;
   if (arithmetic == Arithmetic::float32)
     r = contact_alone<float>(a, b, memory);

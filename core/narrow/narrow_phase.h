@@ -42,6 +42,7 @@ Separation separation(const PlacedShape& a, const PlacedShape& b);
 OverlapAnswer overlap(const PlacedShape& a, const PlacedShape& b, Arithmetic arithmetic = Arithmetic::float64,
                       PairMemory* memory = nullptr);
 
+/// Minus the depth for bodies that overlap; of a solid mesh that is not convex: as for contact().
 /// For a convex body that hits a mesh: minus the depth in the deepest triangle; for two meshes that meet: of
 /// the deepest pair of triangles.
 DistanceAnswer distance(const PlacedShape& a, const PlacedShape& b,
@@ -49,7 +50,8 @@ DistanceAnswer distance(const PlacedShape& a, const PlacedShape& b,
 
 /// For a mesh: normal, depth and point of the deepest triangle or pair of triangles; or of the mesh's plane,
 /// where that is all of the mesh as far as a convex body reaches through it. The normal minimises the depth
-/// over directions.
+/// over directions; with a solid mesh that is not convex, over those that core/narrow/solid.h names, and the
+/// manifold is one point.
 ContactAnswer contact(const PlacedShape& a, const PlacedShape& b, Arithmetic arithmetic = Arithmetic::float64,
                       PairMemory* memory = nullptr);
 

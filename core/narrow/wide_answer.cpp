@@ -5,6 +5,7 @@
 #include "core/narrow/manifold.h"
 #include "core/narrow/mesh.h"
 #include "core/narrow/pair_table.h"
+#include "core/narrow/solid.h"
 #include "core/narrow/unit_scale.h"
 #include "core/tolerance.h"
 
@@ -104,6 +105,7 @@ ContactAnswer wide_contact(const PlacedShape& a, const PlacedShape& b) {
 namespace touchstone {
 
 Separation separation(const PlacedShape& a, const PlacedShape& b) {
+  if (narrow::has_solid(a, b)) return narrow::solid_separation(a, b);
   if (const int e = narrow::unit_scale(a, b); e != 0) {
     const narrow::ScaledPair<PlacedShape> pair(a, b, e);
     return narrow::rescaled(separation(pair.a, pair.b), -e);

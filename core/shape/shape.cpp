@@ -16,7 +16,8 @@ constexpr double rounding_factor = 1 + 8 * std::numeric_limits<double>::epsilon(
 
 void check(std::string_view name, double v, Domain d) {
   if (!std::isfinite(v)) throw InputError(std::string(name), "is not finite (" + to_text(v) + ")");
-  if (d == Domain::non_negative && v < 0) throw InputError(std::string(name), "is negative (" + to_text(v) + ")");
+  if (d == Domain::non_negative && v < 0)
+    throw InputError(std::string(name), "is negative (" + to_text(v) + ")");
   if (d == Domain::positive && !(v > 0)) throw InputError(std::string(name), "must be > 0, is " + to_text(v));
 }
 
@@ -27,7 +28,8 @@ void check(std::string_view name, const Vec3& v, Domain d) {
 
 void check(std::string_view name, const std::vector<Vec3>& v, Domain d) {
   if (v.empty()) throw InputError(std::string(name), "is empty");
-  for (std::size_t i = 0; i < v.size(); ++i) check(std::string(name) + "[" + std::to_string(i) + "]", v[i], d);
+  for (std::size_t i = 0; i < v.size(); ++i)
+    check(std::string(name) + "[" + std::to_string(i) + "]", v[i], d);
 }
 
 void check(std::string_view name, const std::vector<std::array<int, 3>>& v, Domain) {
@@ -66,17 +68,25 @@ const std::vector<Vec3>* vertices_if(const Shape& s) {
       s);
 }
 
+const TriangleMesh* triangles_if(const Shape& s) {
+  if (const auto* solid = std::get_if<SolidMesh>(&s)) return solid;
+  return std::get_if<TriangleMesh>(&s);
+}
+
 void validate(const Shape& s) {
-  std::visit([](const auto& x) { for_each_field(x, [](auto name, const auto& v, Domain d) { check(name, v, d); }); },
-             s);
-  if (const auto* m = std::get_if<TriangleMesh>(&s)) {
+  std::visit(
+      [](const auto& x) { for_each_field(x, [](auto name, const auto& v, Domain d) { check(name, v, d); }); },
+      s);
+  if (const TriangleMesh* m = triangles_if(s)) {
     const int n = static_cast<int>(m->vertices.size());
     for (std::size_t i = 0; i < m->triangles.size(); ++i)
       for (int k : m->triangles[i])
         if (k < 0 || k >= n)
-          throw InputError("triangles[" + std::to_string(i) + "]", "vertex index " + std::to_string(k) +
-                                                                       " is outside 0.." + std::to_string(n - 1));
+          throw InputError("triangles[" + std::to_string(i) + "]",
+                           "vertex index " + std::to_string(k) + " is outside 0.." + std::to_string(n - 1));
   }
+  if (const auto* solid = std::get_if<SolidMesh>(&s))
+    if (const auto flaw = flaw_of_solid(*solid)) throw InputError(flaw->place, flaw->reason);
 }
 
 }  // namespace touchstone

@@ -18,13 +18,14 @@
 #include "core/shape/half_space.h"
 #include "core/shape/hull.h"
 #include "core/shape/rounded_box.h"
+#include "core/shape/solid_mesh.h"
 #include "core/shape/sphere.h"
 #include "core/shape/triangle_mesh.h"
 
 namespace touchstone {
 
-using Shape =
-    std::variant<Sphere, Box, Capsule, Cylinder, Cone, Ellipsoid, Hull, HalfSpace, TriangleMesh, RoundedBox>;
+using Shape = std::variant<Sphere, Box, Capsule, Cylinder, Cone, Ellipsoid, Hull, HalfSpace, TriangleMesh,
+                           RoundedBox, SolidMesh>;
 
 /// Index of a shape type in the variant. The numbers are part of the C ABI (oracles/abi/touchstone_engine.h).
 enum class ShapeKind : int {
@@ -37,20 +38,22 @@ enum class ShapeKind : int {
   hull,
   half_space,
   mesh,
-  rounded_box
+  rounded_box,
+  solid_mesh
 };
 inline constexpr int shape_kind_count = static_cast<int>(std::variant_size_v<Shape>);
-static_assert(static_cast<int>(ShapeKind::rounded_box) + 1 == shape_kind_count,
-              "ShapeKind names every shape");
+static_assert(static_cast<int>(ShapeKind::solid_mesh) + 1 == shape_kind_count, "ShapeKind names every shape");
 
 inline ShapeKind kind_of(const Shape& s) { return static_cast<ShapeKind>(s.index()); }
 
-/// The exceptions are named here and nowhere else: a half-space is not bounded, a mesh is not convex. Every
-/// other alternative of Shape is bounded and convex.
+/// The exceptions are named here and nowhere else: a half-space is not bounded, meshes need not be convex.
+/// Every other alternative of Shape is bounded and convex.
 template <class S>
 inline constexpr bool is_bounded_shape = !std::is_same_v<S, HalfSpace>;
 template <class S>
-inline constexpr bool is_convex_shape = is_bounded_shape<S> && !std::is_same_v<S, TriangleMesh>;
+inline constexpr bool has_triangles = std::is_base_of_v<TriangleMesh, S>;
+template <class S>
+inline constexpr bool is_convex_shape = is_bounded_shape<S> && !has_triangles<S>;
 
 /// What every shape states about itself; core/broad and core/world ask for the bounds.
 template <class S>
@@ -114,8 +117,12 @@ inline constexpr auto convex_shapes =
 
 constexpr bool is_bounded(ShapeKind k) { return detail::bounded_shapes[static_cast<std::size_t>(k)]; }
 
-/// Bounded and convex. The other kinds, half-space and mesh, are static: their bodies do not move.
+/// Bounded and convex. The other kinds, half-space and both meshes, are static: their bodies do not move.
 constexpr bool is_convex(ShapeKind k) { return detail::convex_shapes[static_cast<std::size_t>(k)]; }
+
+/// Given by triangles: a surface, or the solid inside one.
+constexpr bool is_mesh(ShapeKind k) { return k == ShapeKind::mesh || k == ShapeKind::solid_mesh; }
+inline bool is_mesh(const Shape& s) { return is_mesh(kind_of(s)); }
 
 std::string_view type_name(ShapeKind k);
 inline std::string_view type_name(const Shape& s) { return type_name(kind_of(s)); }
@@ -124,7 +131,7 @@ Shape shape_of_kind(ShapeKind k);
 
 /// Calls f(field_name, value_reference, Domain) for each field of the shape, in the order of its table.
 template <class S, class F>
-  requires requires { S::fields(); }
+requires requires { S::fields(); }
 void for_each_field(S& shape, F&& f) {
   std::apply([&](const auto&... field) { (f(field.name, shape.*field.member, field.domain), ...); },
              std::remove_const_t<S>::fields());
@@ -140,8 +147,11 @@ double extent(const Shape& s);
 /// The vertices of a hull or mesh; null for other shapes.
 const std::vector<Vec3>* vertices_if(const Shape& s);
 
-/// Throws InputError naming the field when a number is not finite or outside its domain, or an index is out
-/// of range.
+/// The triangles of a mesh, or of a solid mesh's surface; null for other shapes.
+const TriangleMesh* triangles_if(const Shape& s);
+
+/// Throws InputError naming the field when a number is not finite or outside its domain, an index is out of
+/// range, or the triangles of a solid mesh do not enclose a solid.
 void validate(const Shape& s);
 
 }  // namespace touchstone

@@ -83,7 +83,7 @@ Json shape_from(Words& in) {
   const std::string type = in.word();
   const auto kind = kind_named(type);
   if (!kind) refuse_shape(in, type);
-  if (*kind == ShapeKind::mesh) in.fail("a mesh is given as JSON, not as text");
+  if (is_mesh(*kind)) in.fail("a mesh is given as JSON, not as text");
   Json j{{"type", type}};
   const Shape empty = shape_of_kind(*kind);
   std::visit(
@@ -157,7 +157,7 @@ nlohmann::ordered_json body_from_text(std::string_view text, const std::string& 
 std::string describe_shape_texts() {
   std::string all;
   for (int k = 0; k < shape_kind_count; ++k) {
-    if (static_cast<ShapeKind>(k) == ShapeKind::mesh) continue;
+    if (is_mesh(static_cast<ShapeKind>(k))) continue;
     all += fmt::format("  {}", type_name(static_cast<ShapeKind>(k)));
     const Shape empty = shape_of_kind(static_cast<ShapeKind>(k));
     std::visit(

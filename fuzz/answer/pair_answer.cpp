@@ -11,7 +11,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-bool is_mesh(const Placed& p) { return std::holds_alternative<TriangleMesh>(*p.shape); }
+bool is_mesh(const Placed& p) { return touchstone::is_mesh(*p.shape); }
 bool is_half_space(const Placed& p) { return std::holds_alternative<HalfSpace>(*p.shape); }
 
 // Radius of the ball that the checker adds to the shape's core.

@@ -39,7 +39,7 @@ Json rows(const JsonReader& r) {
 Json plain_shape(const JsonReader& r) {
   const std::string type = r["type"].string();
   const JsonReader numbers = r["numbers"];
-  if (type == type_name(ShapeKind::mesh))
+  if (type == type_name(ShapeKind::mesh) || type == type_name(ShapeKind::solid_mesh))
     return {{"type", type}, {"vertices", rows(numbers)}, {"triangles", rows(r["triangles"])}};
   if (r.has("triangles")) r["triangles"].fail("belongs to meshes");
   if (type == type_name(ShapeKind::hull)) return {{"type", type}, {"vertices", rows(numbers)}};

@@ -78,7 +78,7 @@ std::vector<std::string> pair_names() {
   for (int a = 0; a < shape_kind_count; ++a)
     for (int b = a; b < shape_kind_count; ++b) {
       const auto x = static_cast<ShapeKind>(a), y = static_cast<ShapeKind>(b);
-      if (is_convex(x) || is_convex(y) || (x == ShapeKind::mesh && y == x)) names.push_back(pair_name(x, y));
+      if (is_convex(x) || is_convex(y) || (is_mesh(x) && is_mesh(y))) names.push_back(pair_name(x, y));
     }
   return names;
 }
@@ -149,7 +149,7 @@ void Coverage::note_bodies(const Case& c) {
     if (is_bounded(kind_of(s))) note("size", name_in(sizes, bounding_radius(s)));
     if (const auto* h = std::get_if<Hull>(&s))
       note("vertices", name_in(vertices, static_cast<double>(h->vertices.size())));
-    if (const auto* m = std::get_if<TriangleMesh>(&s))
+    if (const TriangleMesh* m = triangles_if(s))
       note("triangles", name_in(triangles, static_cast<double>(m->triangles.size())));
     note("distance", name_in(distances, b.pose.translation.stableNorm()));
     const Quat& q = b.pose.rotation;

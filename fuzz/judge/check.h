@@ -32,6 +32,8 @@ struct CheckInput {
     const Scene& s = truth.scene();
     return depth_bias(card, kind_of(s.shape_of(a)), kind_of(s.shape_of(b)));
   }
+  bool is_mesh(int body) const { return touchstone::is_mesh(truth.scene().shape_of(body)); }
+  /// A mesh that is not a solid.
   bool is_surface(int body) const { return kind_of(truth.scene().shape_of(body)) == ShapeKind::mesh; }
 };
 

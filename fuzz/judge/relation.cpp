@@ -30,13 +30,14 @@ constexpr std::array rows{
     Relation{"relation_reinsert", "bodies removed and inserted again: the same pairs", derive_reinsert},
 };
 
-bool is_mesh(const Scene& s, int i) { return kind_of(s.shape_of(i)) == ShapeKind::mesh; }
+bool is_mesh(const Scene& s, int i) { return touchstone::is_mesh(s.shape_of(i)); }
 
 GapInterval of_verdict(bool overlap, double tau) {
   return overlap ? GapInterval{-infinity, tau} : GapInterval{-tau, infinity};
 }
 
-// A mesh has no depth: an overlap only implies that there is no gap.
+// A mesh has no depth, and that of a solid is known as a bracket: an overlap only implies that there is no
+// gap.
 GapInterval of_distance(double d, double tau, bool mesh) {
   if (mesh && d <= 0) return {-infinity, tau};
   return {d - tau, d + tau};

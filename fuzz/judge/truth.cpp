@@ -56,8 +56,8 @@ double hausdorff_distance(const std::vector<Vec3>& v, const std::vector<Vec3>& w
 // shapes of different kinds: the engine's answers are then always judged for the shape it holds.
 double shape_difference(const Shape& x, const Shape& y) {
   if (x.index() != y.index()) return unbounded;
-  if (const auto* m = std::get_if<TriangleMesh>(&x))
-    if (m->triangles != std::get<TriangleMesh>(y).triangles) return unbounded;
+  if (const TriangleMesh* m = triangles_if(x))
+    if (m->triangles != triangles_if(y)->triangles) return unbounded;
   if (const auto* h = std::get_if<Hull>(&x))
     if (const auto& held = std::get<Hull>(y).vertices; held.size() != h->vertices.size())
       return hausdorff_distance(h->vertices, held);
@@ -122,8 +122,7 @@ bool is_other_shape(const Shape& asked, const Shape& held) {
   if (asked.index() != held.index()) return true;
   if (const auto* h = std::get_if<Hull>(&asked))
     return h->vertices.size() != std::get<Hull>(held).vertices.size();
-  if (const auto* m = std::get_if<TriangleMesh>(&asked))
-    return m->triangles != std::get<TriangleMesh>(held).triangles;
+  if (const TriangleMesh* m = triangles_if(asked)) return m->triangles != triangles_if(held)->triangles;
   if (std::holds_alternative<HalfSpace>(asked)) return false;
   constexpr double most_of_rounding = 1e-3;  // rounding to float and welding in a cooker are far less
   return !(shape_difference(asked, held) <= most_of_rounding * bounding_radius(asked));
@@ -221,6 +220,9 @@ referee::Bracket Truth::gap_at(int frame, int a, int b, double t) const {
 
 double Truth::depth_in_mesh(int frame, int a, int b) const {
   Placed mesh = placed(frame, a), body = placed(frame, b);
+  if (is_mesh(*mesh.shape) && std::holds_alternative<SolidMesh>(*body.shape)) std::swap(mesh, body);
+  if (std::holds_alternative<SolidMesh>(*mesh.shape) && is_bounded(kind_of(*body.shape)))
+    return referee::certain_depth_of_solids(mesh, body);
   if (!std::holds_alternative<TriangleMesh>(*mesh.shape)) std::swap(mesh, body);
   const auto* m = std::get_if<TriangleMesh>(mesh.shape);
   if (!m) return 0;

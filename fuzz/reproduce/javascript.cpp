@@ -99,15 +99,18 @@ constexpr double error_of_missing_impact = 0.02;
 // fmt prints the shortest text that reads back as the same double, as JavaScript does.
 std::string numbers(const Vec3& v) { return fmt::format("[{}, {}, {}]", v.x(), v.y(), v.z()); }
 
+[[noreturn]] std::string no_mesh() {
+  throw InputError("reproduce", "no program with a mesh is written for engines from npm");
+}
+
 struct ShapeText {
   std::string operator()(const Hull& s) const {
     std::string list;
     for (const Vec3& v : s.vertices) list += (list.empty() ? "" : ", ") + numbers(v);
     return fmt::format("{{ type: \"hull\", vertices: [{}] }}", list);
   }
-  std::string operator()(const TriangleMesh&) const {
-    throw InputError("reproduce", "no program with a mesh is written for engines from npm");
-  }
+  std::string operator()(const TriangleMesh&) const { return no_mesh(); }
+  std::string operator()(const SolidMesh&) const { return no_mesh(); }
   template <class S>
   std::string operator()(const S& s) const {
     std::string out = fmt::format("{{ type: \"{}\"", S::type);

@@ -76,7 +76,8 @@ std::optional<Shape> in_axes(HalfSpace s, const Mat3& p) {
   return s;
 }
 // A mirrored triangle would face the other way.
-std::optional<Shape> in_axes(TriangleMesh s, const Mat3& p) {
+template <class S>
+requires has_triangles<S> std::optional<Shape> in_axes(S s, const Mat3& p) {
   for (Vec3& v : s.vertices) v = p * v;
   if (p.determinant() < 0)
     for (auto& t : s.triangles) std::swap(t[1], t[2]);
@@ -100,7 +101,7 @@ std::vector<ShapeForm> forms_of(const Shape& shape) {
     if (!turned) continue;
     ShapeForm f{*std::move(turned), {static_cast<double>(shape.index())}, &p};
     for (double* x : numbers(f.shape)) f.key.push_back(*x += 0.0);  // -0 becomes 0
-    if (const auto* m = std::get_if<TriangleMesh>(&f.shape))
+    if (const TriangleMesh* m = triangles_if(f.shape))
       for (const auto& t : m->triangles) f.key.insert(f.key.end(), t.begin(), t.end());
     forms.push_back(std::move(f));
   }

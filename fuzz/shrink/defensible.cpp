@@ -34,7 +34,7 @@ bool has_area(const Vec3& a, const Vec3& b, const Vec3& c) {
 }
 
 bool is_degenerate(const Shape& shape) {
-  const auto* mesh = std::get_if<TriangleMesh>(&shape);
+  const TriangleMesh* mesh = triangles_if(shape);
   if (!mesh) return is_flat(shape);
   const auto vertex = [&](int i) -> const Vec3& { return mesh->vertices[static_cast<std::size_t>(i)]; };
   return std::any_of(mesh->triangles.begin(), mesh->triangles.end(), [&](const std::array<int, 3>& t) {
@@ -54,7 +54,7 @@ bool have_volume(const Case& c) {
   return true;
 }
 
-bool is_mesh(const Scene& s, int body) { return std::holds_alternative<TriangleMesh>(s.shape_of(body)); }
+bool is_mesh(const Scene& s, int body) { return touchstone::is_mesh(s.shape_of(body)); }
 
 // Pairs at the bodies' own poses.
 class PairClearance {

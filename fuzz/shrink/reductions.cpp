@@ -265,10 +265,16 @@ void drop_insert_poses(const Case& c, std::vector<Case>& out) {
   }
 }
 
+Shape solid_tetrahedron() {
+  return SolidMesh(TriangleMesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+                                {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}});
+}
+
 void plain_shapes(const Case& c, std::vector<Case>& out) {
   for (std::size_t i = 0; i < c.scene.shapes.size(); ++i)
-    for (const Shape& simple : {Shape(Sphere{1}), Shape(Box{Vec3::Ones()})}) {
-      if (c.scene.shapes[i] == simple) continue;
+    for (const Shape& simple : {Shape(Sphere{1}), Shape(Box{Vec3::Ones()}), solid_tetrahedron()}) {
+      const bool is_other_mesh = is_mesh(simple) && kind_of(simple) != kind_of(c.scene.shapes[i]);
+      if (c.scene.shapes[i] == simple || is_other_mesh) continue;
       Case r = c;
       r.scene.shapes[i] = simple;
       out.push_back(std::move(r));

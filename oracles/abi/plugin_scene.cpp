@@ -67,15 +67,17 @@ ts_body to_abi(const Body& b) {
   return out;
 }
 
+Shape mesh_of_kind(ShapeKind k, TriangleMesh m) {
+  if (k == ShapeKind::solid_mesh) return SolidMesh(std::move(m));
+  return m;
+}
+
 /// Rounded vertices form a different hull, with its own faces and dimension. Coordinates that overflowed to
 /// infinity are kept as they are, without faces, because no hull can be built from them.
 Shape with_vertices(const Shape& asked, std::vector<Vec3> vertices) {
   if (*vertices_if(asked) == vertices) return asked;
-  if (std::holds_alternative<TriangleMesh>(asked)) {
-    TriangleMesh m = std::get<TriangleMesh>(asked);
-    m.vertices = std::move(vertices);
-    return m;
-  }
+  if (const TriangleMesh* mesh = triangles_if(asked))
+    return mesh_of_kind(kind_of(asked), {std::move(vertices), mesh->triangles});
   const bool finite =
       std::all_of(vertices.begin(), vertices.end(), [](const Vec3& v) { return v.allFinite(); });
   if (finite) return make_hull(std::move(vertices));
@@ -119,7 +121,7 @@ std::optional<Shape> shape_from(const ts_shape& t) {
       if (c[i] < 0 || static_cast<std::size_t>(c[i]) >= t.vertex_count) return std::nullopt;
     m.triangles.push_back({c[0], c[1], c[2]});
   }
-  return m;
+  return mesh_of_kind(kind_of(s), std::move(m));
 }
 
 ts_pose pose_to(const Pose& p) {
@@ -146,7 +148,7 @@ ts_shape shape_to(const Shape& s, std::vector<double>& vertices) {
     point_at(h->faces, out);
     out.dimension = h->dimension;
   }
-  if (const auto* m = std::get_if<TriangleMesh>(&s)) point_at(m->triangles, out);
+  if (const TriangleMesh* m = triangles_if(s)) point_at(m->triangles, out);
   return out;
 }
 

@@ -63,7 +63,7 @@ Shape get_shape(Reader& r) {
     if (h->vertices.empty() || h->dimension < 0 || h->dimension > 3) throw Malformed("an invalid hull");
     check_indices(h->faces, h->vertices.size());
   }
-  if (const auto* m = std::get_if<TriangleMesh>(&shape)) check_indices(m->triangles, m->vertices.size());
+  if (const TriangleMesh* m = triangles_if(shape)) check_indices(m->triangles, m->vertices.size());
   return shape;
 }
 

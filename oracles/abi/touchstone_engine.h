@@ -41,8 +41,9 @@ extern "C" {
  * 3: version 2: ts_plugin.ask_many, ts_answer.ns; ts_scene.step_boxes; "shapes", "unit_roundoffs", "contact_offset",
  *    "sweep_skin", "depth_biases" and "times_include_pipe" of a card
  * 4: TS_WITHIN to TS_RAY; ts_scene.margin; ts_answer.lower, upper; TS_HAS_LOWER, TS_HAS_UPPER
- * 5: "separate_triangles" of a card; ts_answer.moment, unique_gradient; TS_HAS_MOMENT, TS_HAS_UNIQUE */
-#define TS_ABI_MINOR 5
+ * 5: "separate_triangles" of a card; ts_answer.moment, unique_gradient; TS_HAS_MOMENT, TS_HAS_UNIQUE
+ * 6: TS_SOLID_MESH */
+#define TS_ABI_MINOR 6
 
 #if defined(_WIN32)
 #define TS_EXPORT __declspec(dllexport)
@@ -60,13 +61,14 @@ enum ts_shape_kind {
   TS_HULL = 6,       /* vertices; triangles = its faces, counter-clockwise seen from outside; no triangles if flat */
   TS_HALF_SPACE = 7, /* size[0..2] = normal n (any length), size[3] = offset d: solid where n.x <= d */
   TS_MESH = 8,       /* vertices, triangles: a surface */
-  TS_ROUNDED_BOX = 9 /* size[0..2] = half extents of a box, size[3] = radius: all points within it of the box */
+  TS_ROUNDED_BOX = 9, /* size[0..2] = half extents of a box, size[3] = radius: all points within it of the box */
+  TS_SOLID_MESH = 10  /* vertices, triangles: a closed surface, counter-clockwise seen from outside, and its inside */
 };
 /* Unless its card lists the kinds that it takes ("shapes"), an engine is sent those up to this one, and those after it
  * that the card adds ("more_shapes"). */
 #define TS_LAST_COMMON_SHAPE TS_MESH
 /* The last kind of this header. */
-#define TS_LAST_SHAPE TS_ROUNDED_BOX
+#define TS_LAST_SHAPE TS_SOLID_MESH
 
 typedef struct ts_shape {
   int32_t kind;

@@ -25,7 +25,8 @@ constexpr const char* source =
     "btContinuousConvexCollision.cpp: sweep ends at a gap of 0.001; btGjkConvexCast.cpp: ray ends at a gap "
     "of "
     "0.001; btBoxBoxDetector.cpp: dBoxBox2 prefers faces by fudge_factor 1.05; btInternalEdgeUtility.h: "
-    "without it, normals at internal edges of meshes are wrong";
+    "without it, normals at internal edges of meshes are wrong; btBvhTriangleMeshShape.h: a mesh is a static "
+    "set of triangles without an inside";
 
 btDefaultCollisionConstructionInfo construction_of(const Setting& s) {
   btDefaultCollisionConstructionInfo info;

@@ -33,12 +33,17 @@ bool check_planes(const Certificate& c, const Sets& a, const Sets& b) {
   return c.rationals.size() % 4 == 0 && std::all_of(a.begin(), a.end(), has);
 }
 
-bool check_point(const Certificate& c, const Sets& a, const Sets& b) {
+bool check_point(const Certificate& c, const Placed& placed_a, const Sets& a, const Placed& placed_b,
+                 const Sets& b) {
   const auto& r = c.rationals;
   if (!r.empty() && r.size() != 3) return false;
   const V x = r.empty() ? exact_value(c.point) : V{rational_of(r[0]), rational_of(r[1]), rational_of(r[2])};
   const auto in = [&](const Set& s) { return is_within(s, x, s.ball); };
-  return std::any_of(a.begin(), a.end(), in) && std::any_of(b.begin(), b.end(), in);
+  const auto holds = [&](const Placed& p, const Sets& sets) {
+    return std::any_of(sets.begin(), sets.end(), in) ||
+           (std::holds_alternative<SolidMesh>(*p.shape) && is_enclosed(sets, x) == true);
+  };
+  return holds(placed_a, a) && holds(placed_b, b);
 }
 
 // B moved by d·n/|n| can be separated from A by a plane across k when h_A(k) + h_B(-k) <= d·(k·n)/|n|. k is n
@@ -52,17 +57,6 @@ bool check_direction(const V& n, const Q& d, const Set& a, const Set& b) {
   const Q rest =
       own ? times_root(balls, dot(k, k)) + times_root(-d * dot(k, n) / nn, nn) : times_root(balls - d, nn);
   return *top_a + *top_b + rest <= 0;
-}
-
-// +1 or -1 where the ray from the origin leaves or enters through the triangle, 0 where it misses the
-// triangle, nullopt where it meets an edge.
-std::optional<int> crossing(const V& a, const V& b, const V& c, const V& ray) {
-  const int side = dot(a, cross(b, c)).sign();
-  const int part[] = {dot(ray, cross(b, c)).sign() * side, dot(ray, cross(c, a)).sign() * side,
-                      dot(ray, cross(a, b)).sign() * side};
-  const int least = *std::min_element(part, part + 3);
-  if (side == 0 || least < 0) return 0;
-  return least > 0 ? std::optional<int>(side) : std::nullopt;
 }
 
 // The hull of the points contains the ball of radius r about the origin, because a closed surface of
@@ -130,11 +124,10 @@ bool check(const Certificate& c, const Placed& a, const Placed& b) {
   const Sets x = sets_of(a), y = sets_of(b);
   if (x.empty() || y.empty() || !is_finite(c)) return false;
   using K = Certificate::Kind;
-  if (c.kind == K::separating_plane) return check_planes(c, x, y);
-  if (c.kind == K::common_point) return check_point(c, x, y);
-  // A mesh is a surface without an interior: it has no depth.
-  const auto is_mesh = [](const Placed& p) { return std::holds_alternative<TriangleMesh>(*p.shape); };
-  if (is_mesh(a) || is_mesh(b)) return false;
+  if (c.kind == K::separating_plane) return check_planes(c, x, y) && are_not_nested(a, x, b, y);
+  if (c.kind == K::common_point) return check_point(c, a, x, b, y);
+  // A mesh is a surface without an interior and has no depth; that of a solid mesh has no certificate.
+  if (is_mesh(*a.shape) || is_mesh(*b.shape)) return false;
   if (c.kind == K::depth_direction) return check_direction(exact_value(c.direction), Q(c.offset), x[0], y[0]);
   return c.kind == K::inner_polytope && shows_depth(c, x[0], y[0]);
 }

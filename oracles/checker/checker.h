@@ -17,6 +17,7 @@ inline constexpr double point_factor = 0x1p-50;
 /// What a certificate of each kind proves when it holds:
 ///   separating_plane  A on direction·x <= offset, B on direction·x > offset. With rationals: any number of
 ///                     planes, four numbers each; each pair of triangles of meshes needs one of them.
+///                     A solid mesh is its triangles here; besides, neither body may be inside the other.
 ///   common_point      the point is in both bodies.
 ///   depth_direction   B moved by `offset` along direction/|direction| shares no interior point with A.
 ///   inner_polytope    depth >= offset: the facets' surface encloses the origin of A-B at that distance.

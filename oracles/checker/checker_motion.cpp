@@ -173,6 +173,11 @@ bool check(const ImpactCertificate& c, const Placed& a, const Motion& motion_a, 
                 exact_value(motion_a.angular)};
   const Mover y{b, seen_from, still, exact_value(motion_b.angular)};
   if (c.claims_nothing()) return false;
+  // Bodies that stay clear of a solid's surface are outside it if they begin outside.
+  if (!c.tracks.empty() &&
+      (std::holds_alternative<SolidMesh>(*a.shape) || std::holds_alternative<SolidMesh>(*b.shape)) &&
+      !are_not_nested(a, at(x, 0).parts, b, at(y, 0).parts))
+    return false;
   return (c.tracks.empty() || check_apart(c, x, y)) && (!c.contact || check_contact(*c.contact, x, y)) &&
          (!c.overlap || check_overlap(*c.overlap, x, y));
 }

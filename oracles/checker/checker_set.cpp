@@ -277,6 +277,43 @@ bool is_within(const Set& s, const V& x, const Q& r) {
   return dot(v, v) <= limit;
 }
 
+std::optional<int> crossing(const V& a, const V& b, const V& c, const V& ray) {
+  const int side = dot(a, cross(b, c)).sign();
+  const int part[] = {dot(ray, cross(b, c)).sign() * side, dot(ray, cross(c, a)).sign() * side,
+                      dot(ray, cross(a, b)).sign() * side};
+  const int least = *std::min_element(part, part + 3);
+  if (side == 0 || least < 0) return 0;
+  return least > 0 ? std::optional<int>(side) : std::nullopt;
+}
+
+std::optional<bool> is_enclosed(const std::vector<Set>& triangles, const V& x) {
+  const auto corner = [&](const Set& t, std::size_t k) { return t.core[k].centre - x; };
+  for (const V& ray : {V{1, Q(1009, 1013), Q(-499, 997)}, V{Q(-311, 313), 1, Q(769, 773)},
+                       V{Q(107, 109), Q(-211, 223), 1}}) {
+    int crossings = 0;
+    bool is_clean = true;
+    for (const Set& t : triangles) {
+      const auto more = crossing(corner(t, 0), corner(t, 1), corner(t, 2), ray);
+      is_clean = is_clean && more;
+      crossings += more.value_or(0);
+    }
+    if (is_clean) return crossings != 0;
+  }
+  return std::nullopt;
+}
+
+bool are_not_nested(const Placed& a, const std::vector<Set>& sets_a, const Placed& b,
+                    const std::vector<Set>& sets_b) {
+  const auto is_solid = [](const Placed& p) { return std::holds_alternative<SolidMesh>(*p.shape); };
+  // A point of each part: the centre of its first piece.
+  const auto are_outside = [](const std::vector<Set>& solid, const std::vector<Set>& other) {
+    return std::all_of(other.begin(), other.end(), [&](const Set& s) {
+      return s.kind == Set::Kind::half_space || is_enclosed(solid, s.core.front().centre) == false;
+    });
+  };
+  return (!is_solid(a) || are_outside(sets_a, sets_b)) && (!is_solid(b) || are_outside(sets_b, sets_a));
+}
+
 bool is_clear_of_ball(const std::array<V, 3>& t, const Q& r) {
   const V n = cross(t[1] - t[0], t[2] - t[0]);
   const Q along = dot(n, t[0]), nn = dot(n, n);

@@ -69,6 +69,16 @@ bool is_finite(const Certificate& c);
 /// true sets may be turned slightly relative to a and b: a point at distance d from the body's origin is
 /// within loose·d of its position here.
 bool shows_depth(const Certificate& c, const Set& a, const Set& b, const Q& loose = 0);
+/// +1 or -1 where the ray from the origin leaves or enters through the triangle, 0 where it misses the
+/// triangle, nullopt where it meets an edge.
+std::optional<int> crossing(const V& a, const V& b, const V& c, const V& ray);
+/// Whether the point is inside the closed surface that the triangles form; nullopt: each ray tried meets an
+/// edge.
+std::optional<bool> is_enclosed(const std::vector<Set>& triangles, const V& x);
+/// Certainly, for sets of which no two share a point, those of each body: neither body is inside the other,
+/// where a solid mesh has an inside.
+bool are_not_nested(const Placed& a, const std::vector<Set>& sets_a, const Placed& b,
+                    const std::vector<Set>& sets_b);
 /// Whether the triangle does not hold the origin and is nowhere within less than r of it.
 bool is_clear_of_ball(const std::array<V, 3>& triangle, const Q& r);
 

@@ -32,7 +32,7 @@ void store(const DistanceAnswer& answer, Observation& o) {
 
 void store(const DistanceAnswer& answer, const PlacedShape& a, const PlacedShape& b, Observation& o) {
   store(answer, o);
-  const bool surface = kind_of(*a.shape) == ShapeKind::mesh || kind_of(*b.shape) == ShapeKind::mesh;
+  const bool surface = is_mesh(*a.shape) || is_mesh(*b.shape);
   if (answer.outcome != Outcome::answered || (surface && answer.distance <= 0)) return;
   if (const auto g = gradient(answer, b.pose.translation)) o.moment = g->moment;
 }

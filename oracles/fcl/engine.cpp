@@ -29,7 +29,8 @@ constexpr const char* source =
     "fcl/narrowphase/collision_request.h: gjk_tolerance; distance_request.h: distance_tolerance; "
     "continuous_collision_request.h: toc_err times the closing speed; box_box-inl.h: boxBox2 prefers faces "
     "by "
-    "fudge_factor 1.05; contact.h: a contact with a mesh is that of the triangle b1 or b2";
+    "fudge_factor 1.05; contact.h: a contact with a mesh is that of the triangle b1 or b2; "
+    "BVH_model.h: a mesh is a hierarchy of triangles without an inside";
 
 #ifdef TOUCHSTONE_SWEEP
 struct Sweep {

@@ -6,6 +6,7 @@ const kinds = [
   ["sphere", { radius: 1 }], ["box", { half_extents: 3 }], ["capsule", { radius: 1, half_height: 1 }],
   ["cylinder", { radius: 1, half_height: 1 }], ["cone", { radius: 1, half_height: 1 }], ["ellipsoid", { semi_axes: 3 }],
   ["hull", {}], ["half_space", { normal: 3, offset: 1 }], ["mesh", {}], ["rounded_box", { half_extents: 3, radius: 1 }],
+  ["solid_mesh", {}],
 ];
 const sizes = 4, of_pose = 7, of_motion = 6, of_double = 8; // numbers of a shape, a pose and a motion; bytes
 

@@ -4,6 +4,7 @@
 #include "oracles/referee/exact/exact_pair.h"
 #include "oracles/referee/filter/half_space.h"
 #include "oracles/referee/filter/wide_search.h"
+#include "oracles/referee/solid/solid.h"
 #include "oracles/referee/work.h"
 
 namespace touchstone::referee {
@@ -259,8 +260,20 @@ Certificate exact_form(const PairTruth& truth, const Placed& a, const Placed& b)
 
 namespace {
 
+Certificate first_valid_certificate(const PairTruth& truth, const Placed& a, const Placed& b);
+
+// What holds of the hulls or the surfaces in place of solids need not hold of these: the checker decides.
+Certificate certificate_of_solids(const PairTruth& truth, const Placed& a, const Placed& b) {
+  const AsHulls hulls(a, b);
+  const AsSurface x(hulls.a()), y(hulls.b());
+  const Certificate c = first_valid_certificate(truth, *x, *y);
+  if (c.kind != Certificate::Kind::none && checker::check(c, a, b)) return c;
+  return {};
+}
+
 Certificate first_valid_certificate(const PairTruth& truth, const Placed& a, const Placed& b) {
   if (checker::check(truth.verdict_certificate, a, b)) return truth.verdict_certificate;
+  if (has_solid(a, b)) return certificate_of_solids(truth, a, b);
   Certificate c = exact_form(truth, a, b);
   if (c.kind != Certificate::Kind::none) return c;
   c = search_wide(a, b);

@@ -5,6 +5,7 @@
 #include "oracles/referee/filter/convex.h"
 #include "oracles/referee/filter/half_space.h"
 #include "oracles/referee/filter/point_distance.h"
+#include "oracles/referee/solid/solid.h"
 #include "oracles/referee/work.h"
 
 namespace touchstone::referee {
@@ -23,7 +24,7 @@ Vec3 translation_of(const Placed& p) {
 
 /// A mesh is replaced by the hull of its vertices, which has the same support function.
 Solid hull_body(const Placed& p, const Vec3& origin) {
-  if (const auto* m = get<TriangleMesh>(p)) return make_body(m->vertices, 0, frame_of(p, origin));
+  if (const TriangleMesh* m = triangles_if(*p.shape)) return make_body(m->vertices, 0, frame_of(p, origin));
   return make_body(p, frame_of(p, origin));
 }
 
@@ -75,6 +76,12 @@ Aabb box_of(const Solid& b) {
 }
 
 Bracket width(const Placed& a, const Placed& b, const Vec3& n) {
+  if (has_solid(a, b)) {
+    const AsHulls hulls(a, b);
+    const bool has_surface = get<TriangleMesh>(hulls.a()) || get<TriangleMesh>(hulls.b());
+    if (!hulls.are_plain() && !has_surface)
+      return within_limit(Bracket{0, infinity}, [&] { return way_along(hulls.a(), hulls.b(), n); });
+  }
   if (get<HalfSpace>(a) || get<HalfSpace>(b)) return half_space_width(a, b, n, get<HalfSpace>(a) != nullptr);
   const Vec3 origin = translation_of(a);
   const Solid x = hull_body(a, origin), y = hull_body(b, origin);
@@ -90,6 +97,10 @@ namespace {
 
 Bracket from_body(const Placed& a, const Vec3& point_w, double enough) {
   if (get<HalfSpace>(a)) return half_space_distance(a, point_w);
+  if (is_solid(a)) {
+    const AsSurface surface(a);
+    return is_inside(a, exact(point_w)) ? Bracket{0, 0} : from_body(*surface, point_w, enough);
+  }
   const auto from_zero = [](Real lo, Real hi) -> Bracket {
     return {std::max(0.0, round_down(lo)), std::max(0.0, round_up(hi))};
   };
@@ -115,6 +126,10 @@ Bracket from_body(const Placed& a, const Vec3& point_w, double enough) {
 
 Bracket distance_to(const Placed& a, const Vec3& point_w, double enough) {
   return within_limit(Bracket{0, infinity}, [&] { return from_body(a, point_w, enough); });
+}
+
+double certain_depth_of_solids(const Placed& a, const Placed& b) {
+  return within_limit(0.0, [&] { return depth_at_least(a, b); });
 }
 
 Aabb outer_box(const Placed& a) {

@@ -26,6 +26,7 @@ std::string_view to_string(Verdict v);
 struct PairTruth {
   Verdict verdict = Verdict::undecided;
   /// Signed: > 0 distance, < 0 minus the depth. For an overlapping mesh [-inf, 0]: its depth is not defined.
+  /// For a solid mesh that is not convex the bracket of a depth may be wide.
   Bracket gap;
   /// Unit within rounding, A to B: a separating direction, or a direction of (nearly) least w.
   Vec3 normal = Vec3::Zero();
@@ -43,8 +44,8 @@ PairTruth judge_pair(const Placed& a, const Placed& b, std::span<const Vec3> hin
                      std::span<const Vec3> hint_points = {});
 
 /// `t`, judge_pair's answer for the same bodies, with points that realise the depth along its normal:
-/// witness[0] - witness[1] is the depth times the normal, up to 1e-7 of the bodies' size. Unchanged where they
-/// do so already, for bodies that are apart, half-spaces and meshes.
+/// witness[0] - witness[1] is the depth times the normal, up to 1e-7 of the bodies' size. Unchanged where
+/// they do so already, for bodies that are apart, half-spaces and meshes.
 PairTruth with_witness(PairTruth t, const Placed& a, const Placed& b);
 
 /// Is the signed gap at most `margin` (finite, any sign)? overlap: yes, disjoint: no. `truth` is what
@@ -87,8 +88,13 @@ NearMinimalNormals near_minimal_normals(const Placed& a, const Placed& b);
 
 /// w(n)/|n| where w(n) = h_A(n) + h_B(-n): how far B must move along n to be separated from A. n finite,
 /// non-zero. A half-space has a support value only along its own normal m; for it the answer to the same
-/// question is depth/cos(n, m), infinite when n does not lead out of it.
+/// question is depth/cos(n, m), infinite when n does not lead out of it. With a solid mesh that is not
+/// convex: the least motion along n, at least 0, after which the two are apart; a bracket that may be wide.
 Bracket width(const Placed& a, const Placed& b, const Vec3& n);
+
+/// Two bodies of which at least one is a solid mesh, and that overlap, half-spaces excepted: no motion
+/// shorter than this separates them, proven. 0 where nothing is known.
+double certain_depth_of_solids(const Placed& a, const Placed& b);
 
 /// Distance of a point from the closed body; 0 inside. The bracket is as narrow as possible, or wider once it
 /// is certain that the distance is at most `enough`.

@@ -7,6 +7,7 @@
 
 #include "oracles/referee/filter/convex.h"
 #include "oracles/referee/referee.h"
+#include "oracles/referee/solid/solid.h"
 
 namespace touchstone::referee {
 namespace {
@@ -34,6 +35,10 @@ Placed moved(const Placed& p, const Vec3& by) {
 }  // namespace
 
 PairTruth with_witness(PairTruth t, const Placed& a, const Placed& b) {
+  if (has_solid(a, b)) {
+    const AsHulls hulls(a, b);
+    return hulls.are_plain() ? with_witness(std::move(t), hulls.a(), hulls.b()) : t;
+  }
   const bool convex = !is<HalfSpace>(a) && !is<HalfSpace>(b) && !is<TriangleMesh>(a) && !is<TriangleMesh>(b);
   if (t.verdict != Verdict::overlap || !convex || !std::isfinite(t.gap.lo) || t.normal.isZero(0)) return t;
   const double size = bounding_radius(*a.shape) + bounding_radius(*b.shape);

@@ -118,6 +118,9 @@ struct Description {
   std::string operator()(const TriangleMesh& s) const {
     return fmt::format("mesh of {} triangles", s.triangles.size());
   }
+  std::string operator()(const SolidMesh& s) const {
+    return fmt::format("solid mesh of {} triangles", s.triangles.size());
+  }
 };
 
 }  // namespace

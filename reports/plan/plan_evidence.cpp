@@ -64,7 +64,7 @@ PlanSample::PlanSample(const Course& course, const EndPoses& poses,
     Judged j{{o.a, o.b}, referee::judge_pair(placed(o.step, o.a), placed(o.step, o.b)), true};
     ++judged_;
     if (j.truth.verdict == referee::Verdict::undecided) ++undecided_;
-    const auto is_mesh = [&](int i) { return kind_of(course.scene.shape_of(i)) == ShapeKind::mesh; };
+    const auto is_mesh = [&](int i) { return touchstone::is_mesh(course.scene.shape_of(i)); };
     j.has_depth = !is_mesh(o.a) && !is_mesh(o.b);
     of_step_[o.step].push_back(std::move(j));
   }

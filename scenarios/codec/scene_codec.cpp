@@ -106,9 +106,20 @@ Shape read_shape_named(const JsonReader& r, const std::string& type) {
   }
 }
 
+// A mesh that is declared solid is the shape "solid_mesh", whose triangles validate() checks.
+Shape read_mesh_declared(const JsonReader& r) {
+  static constexpr auto known = std::to_array<std::string_view>({"type", "vertices", "triangles", "solid"});
+  r.require_object(known);
+  TriangleMesh mesh;
+  for_each_field(mesh, [&](auto name, auto& value, Domain) { read(r[name], value); });
+  if (!r["solid"].boolean()) return mesh;
+  return SolidMesh(std::move(mesh));
+}
+
 Shape read_shape(const JsonReader& r) {
   r.require_object();
-  return read_shape_named(r, r["type"].string());
+  const std::string type = r["type"].string();
+  return type == TriangleMesh::type && r.has("solid") ? read_mesh_declared(r) : read_shape_named(r, type);
 }
 
 Pose read_pose(const JsonReader& r) {

@@ -10,7 +10,7 @@ namespace {
 
 std::size_t parts(const Shape& shape) {
   if (const auto* h = std::get_if<Hull>(&shape)) return h->vertices.size();
-  if (const auto* m = std::get_if<TriangleMesh>(&shape)) return m->vertices.size() + 3 * m->triangles.size();
+  if (const TriangleMesh* m = triangles_if(shape)) return m->vertices.size() + 3 * m->triangles.size();
   return 0;
 }
 

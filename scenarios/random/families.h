@@ -12,6 +12,7 @@ namespace touchstone::fuzz {
 void meshes(Rng& rng, Case& c);
 void many_vertices(Rng& rng, Case& c);
 void two_meshes(Rng& rng, Case& c);
+void solids(Rng& rng, Case& c);
 
 Shape any_mesh(Rng& rng, double scale);
 
@@ -19,7 +20,7 @@ Shape any_mesh(Rng& rng, double scale);
 struct Spot {
   Vec3 point, normal;  // world
 };
-/// Precondition: a mesh.
+/// Precondition: a mesh or a solid mesh.
 Spot spot_on(Rng& rng, const Scene& s, int body);
 
 // Pairs whose sizes are unusual: zero (points, segments, discs, plates), or very different; and boxes and

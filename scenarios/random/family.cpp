@@ -252,6 +252,8 @@ constexpr Family catalog[] = {
     {"endless", "2 to 5 bodies, 300 to 699 queries about their pairs in any order", 0, endless_dialogue},
     // Only when asked for by name: `stability --motions` judges every frame and what changes between them.
     {"motions", "a smooth motion in 4 to 16 frames: settling, sliding, rolling, a top, a hinge", 0, motions},
+    // Only when asked for by name: the referee's bracket of one depth costs as much as fifty other answers.
+    {"solids", "solid meshes, some hollow, against any shape: apart, touching, deep, inside", 0, solids},
 };
 static_assert(catalog[first_later - 1].name == "dialogue");
 static_assert(catalog[first_of_margins - 1].name == "surfaces");

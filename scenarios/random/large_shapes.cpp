@@ -100,7 +100,7 @@ void ask_pair(Case& c) {
 }  // namespace
 
 Spot spot_on(Rng& rng, const Scene& s, int body) {
-  const auto& m = std::get<TriangleMesh>(s.shape_of(body));
+  const TriangleMesh& m = *triangles_if(s.shape_of(body));
   const auto& t = m.triangles[rng.below(m.triangles.size())];
   const auto corner = [&](std::size_t k) { return m.vertices[static_cast<std::size_t>(t[k])]; };
   double u = rng.uniform(), v = rng.uniform();

@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "scenarios/random/solid_shapes.h"
+
 namespace touchstone::fuzz {
 namespace {
 
@@ -75,6 +77,8 @@ Shape random_shape(Rng& rng, ShapeKind kind, double scale) {
       return random_mesh(rng, scale);
     case ShapeKind::rounded_box:
       return RoundedBox{sizes(rng, scale), a / 4};
+    case ShapeKind::solid_mesh:
+      return random_solid(rng, scale);
   }
   return Sphere{a};
 }
@@ -110,7 +114,7 @@ double support_value(const Shape& shape, const Vec3& n) {
           const double along = n.normalized().dot(s.normal.normalized());
           return along > parallel_cosine ? s.offset / s.normal.norm()
                                          : std::numeric_limits<double>::infinity();
-        } else if constexpr (std::is_same_v<S, TriangleMesh>) {
+        } else if constexpr (has_triangles<S>) {
           double h = -std::numeric_limits<double>::infinity();
           for (const Vec3& v : s.vertices) h = std::max(h, v.dot(n));
           return h;

@@ -23,7 +23,7 @@ double height(const Shape& shape, const Vec3& d) {
         double most = infinity;
         if constexpr (requires { support(s, d); }) {
           most = d.dot(support(s, d));
-        } else if constexpr (std::is_same_v<S, TriangleMesh>) {
+        } else if constexpr (has_triangles<S>) {
           most = -infinity;
           for (const Vec3& v : s.vertices) most = std::max(most, d.dot(v));
         }

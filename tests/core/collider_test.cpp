@@ -27,6 +27,9 @@ std::vector<Shape> one_of_each(Rng& r) {
       s = make_hull(std::move(v));
     }
     if (auto* h = std::get_if<HalfSpace>(&s)) *h = {Vec3(1, 2, -2), 0.75};
+    if (std::holds_alternative<SolidMesh>(s))
+      s = SolidMesh(TriangleMesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+                                 {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}});
     if (auto* m = std::get_if<TriangleMesh>(&s)) {
       m->vertices = {{9, 9, 9}, {-1, -1, 0}, {1, -1, 0.25}, {0, 1, 0.5}, {0, 0, 1}, {-7, 0, 0}};
       m->triangles = {{1, 2, 3}, {1, 2, 4}, {2, 3, 4}};

@@ -11,7 +11,7 @@
 namespace touchstone::mutants {
 
 /// All of them, in the order of their topics: broad phase, overlap, distance, contact, impact, outcome,
-/// scene, relations, regimes, memory, step, triggers, symptoms, margins, gradients.
+/// scene, relations, regimes, memory, step, triggers, symptoms, margins, gradients, solids.
 const std::vector<Mutant>& mutants();
 
 EnginePtr make_lying_engine(const Mutant& m);

@@ -26,5 +26,6 @@ std::vector<Mutant> regime_lies();    // visible only in one regime of the gener
 std::vector<Mutant> memory_lies();    // earlier questions
 std::vector<Mutant> trigger_lies();   // the same wrong answer in other cases
 std::vector<Mutant> symptom_lies();   // the same wrong answer for other reasons
+std::vector<Mutant> solid_lies();     // solid meshes
 
 }  // namespace touchstone::mutants

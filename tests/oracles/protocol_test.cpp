@@ -31,7 +31,7 @@ std::vector<Vec3> any_points(Rng& rng, std::size_t n) {
 
 Shape any_shape(Rng& rng) {
   const double a = rng.uniform(0.1, 2), b = rng.uniform(0.1, 2);
-  switch (rng.below(10)) {
+  switch (rng.below(11)) {
     case 0:
       return Sphere{a};
     case 1:
@@ -50,6 +50,8 @@ Shape any_shape(Rng& rng) {
       return HalfSpace{any_vector(rng), a};
     case 8:
       return RoundedBox{Vec3(a, b, a), b};
+    case 9:
+      return SolidMesh(TriangleMesh{any_points(rng, 4), {{0, 1, 2}, {1, 2, 3}}});
     default:
       return TriangleMesh{any_points(rng, 4), {{0, 1, 2}, {1, 2, 3}}};
   }
@@ -250,6 +252,18 @@ TEST_CASE("shapes pass through the C ABI and back", "[oracles][abi]") {
   const double size[4] = {1, 2, 3.5, 0.25};
   callbacks.shape(callbacks.ctx, 0, size, nullptr, 0);
   CHECK(held.take().shapes[0] == Shape(RoundedBox{{1, 2, 3.5}, 0.25}));
+  Scene solid;
+  solid.shapes = {SolidMesh(TriangleMesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+                                         {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}})};
+  const PluginScene sent_solid(solid);
+  const ts_shape& t = sent_solid.view().shapes[0];
+  CHECK((t.kind == TS_SOLID_MESH && t.triangle_count == 4 && t.vertex_count == 4));
+  ReceivedCollector held_solid(solid);
+  const ts_received solid_callbacks = held_solid.callbacks();
+  const double moved[] = {0, 0, 0, 2, 0, 0, 0, 1, 0, 0, 0, 1};
+  solid_callbacks.shape(solid_callbacks.ctx, 0, size, moved, 4);
+  const Shape received = *held_solid.take().shapes[0];
+  CHECK((kind_of(received) == ShapeKind::solid_mesh && triangles_if(received)->vertices[1].x() == 2));
   ts_shape unknown = s;
   for (const int kind : {-1, TS_LAST_SHAPE + 1}) {
     unknown.kind = kind;

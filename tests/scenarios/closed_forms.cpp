@@ -23,7 +23,7 @@ double support_value(const Shape& shape, const Pose& pose, const Vec3& n) {
           // Finite only along the plane's normal.
           const bool along = s.normal.normalized().dot(d) > 1 - 1e-12;
           return along ? s.offset / s.normal.norm() : std::numeric_limits<double>::infinity();
-        } else if constexpr (std::is_same_v<S, TriangleMesh>) {
+        } else if constexpr (has_triangles<S>) {
           return std::nan("");
         } else {
           return support(s, d).dot(d);
@@ -42,9 +42,7 @@ double width(const Scene& s, const Vec3& n) {
   return support_value(s.shape_of(0), a, n) + support_value(s.shape_of(1), b, -n);
 }
 
-bool is_convex_pair(const Scene& s) {
-  return kind_of(s.shape_of(0)) != ShapeKind::mesh && kind_of(s.shape_of(1)) != ShapeKind::mesh;
-}
+bool is_convex_pair(const Scene& s) { return !is_mesh(s.shape_of(0)) && !is_mesh(s.shape_of(1)); }
 
 // Coordinates in the body frame count too: a hull may lie far from its origin.
 double rounding_scale(const Scene& s) { return scale_of_pair(s, 0, 1); }

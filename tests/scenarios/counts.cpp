@@ -17,7 +17,7 @@ Aabb tight_box(const Shape& shape, const Pose& pose) {
   std::visit(
       [&](const auto& s) {
         using S = std::decay_t<decltype(s)>;
-        if constexpr (std::is_same_v<S, TriangleMesh>) {
+        if constexpr (has_triangles<S>) {
           for (const Vec3& v : s.vertices) b.extend(Vec3(v + pose.translation));
         } else if constexpr (!std::is_same_v<S, HalfSpace>) {
           for (int i = 0; i < 3; ++i)

@@ -120,7 +120,7 @@ class Body:
 def parts(shape, pose, move=(((Q(0),) * 3, Q(1)), (Q(0),) * 3)):
     """The convex parts of a placed shape: the triangles of a mesh, else one."""
     zero, kind = (Q(0),) * 3, shape["type"]
-    if kind == "mesh":
+    if kind in ("mesh", "solid_mesh"):
         points = [vec(p) for p in shape["vertices"]]
         return [Body(shape, pose, [(points[i], zero) for i in t], move) for t in shape["triangles"]]
     h, r = Q(float(shape.get("half_height", 0))), Q(float(shape.get("radius", 0)))
@@ -190,7 +190,32 @@ def check_planes(c, a, b):
                 and bottom + root(nn, t.ball) < -at)
 
     count = 1 if text is None else len(text) // 4
-    return all(any(separates(*plane(i), s, t) for i in range(count)) for s in a for t in b)
+    return all(any(separates(*plane(i), s, t) for i in range(count)) for s in a for t in b) and not_nested(a, b)
+
+
+def winds_around(triangles, x):
+    """How often the closed surface winds around x, counted along a ray; None if every ray tried meets an edge."""
+    for ray in ((Q(1), Q(503, 509), Q(-251, 257)), (Q(-127, 131), Q(1), Q(601, 607)), (Q(11, 13), Q(-17, 19), Q(1))):
+        winding = 0
+        for t in triangles:
+            a, b, c = (sub(p, x) for p, _ in t.pieces)
+            side = dot(a, cross(b, c))
+            split = [dot(ray, cross(p, q)) * side for p, q in ((b, c), (c, a), (a, b))]
+            if side == 0 or min(split) < 0:
+                continue
+            if min(split) == 0:
+                break
+            winding += 1 if side > 0 else -1
+        else:
+            return winding
+    return None
+
+
+def not_nested(a, b):
+    """Whether no part of either begins inside the other, where that is a solid mesh. The parts do not meet."""
+    def outside(solid, other):
+        return solid[0].kind != "solid_mesh" or all(s.plane or winds_around(solid, s.pieces[0][0]) == 0 for s in other)
+    return outside(a, b) and outside(b, a)
 
 
 def check_point(c, a, b):
@@ -200,7 +225,9 @@ def check_point(c, a, b):
             raise Refused("rationals is empty")
         return False
     x = vec(c["point"]) if text is None else tuple(rational(s) for s in text)
-    return any(s.holds(x, s.ball) for s in a) and any(s.holds(x, s.ball) for s in b)
+    def held(body):
+        return any(s.holds(x, s.ball) for s in body) or (body[0].kind == "solid_mesh" and bool(winds_around(body, x)))
+    return held(a) and held(b)
 
 
 def check_direction(c, a, b):
@@ -271,7 +298,7 @@ def check_pair(c, bodies):
         return check_planes(c, a, b)
     if c["kind"] == "common_point":
         return check_point(c, a, b)
-    if any(shape["type"] == "mesh" for shape, _ in bodies):
+    if any(shape["type"] in ("mesh", "solid_mesh") for shape, _ in bodies):
         return False
     if c["kind"] == "depth_direction":
         return check_direction(c, a[0], b[0])
@@ -352,7 +379,7 @@ def check_apart(c, a, b):
             return False
         below, above = stays(track, a, 1), stays(track, b, -1)
         apart |= {(i, j) for i in range(n) if below[i] for j in range(m) if above[j]}
-    return len(apart) == n * m > 0
+    return len(apart) == n * m > 0 and not_nested(a.at(Q(0))[0], b.at(Q(0))[0])
 
 
 def holds_loosely(moment, x):

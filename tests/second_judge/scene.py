@@ -48,6 +48,10 @@ def turned(q, w, t):
     return (v[0], v[1], v[2], c * bw - dot(a, (bx, by, bz)))
 
 
+class CannotTell(Exception):
+    pass
+
+
 def pose_of(body, t=F(0), pose=None):
     """Matrix and translation at the time t of the step."""
     p = body.get("pose", {}) if pose is None else pose
@@ -70,6 +74,8 @@ def place(shape, m, c):
         return Poly([at((i * x, j * y, k * z)) for i, j, k in signs], F(shape.get("radius", 0)))
     if kind == "hull":
         return Poly([at(v) for v in sorted({exact(v) for v in shape["vertices"]})])
+    if kind == "solid_mesh":
+        raise CannotTell("solid meshes are not judged here")
     if kind == "half_space":
         n = times(m, exact(shape["normal"]))
         return HalfSpace(n, F(shape["offset"]) + dot(n, c))
@@ -86,7 +92,7 @@ def extent(shape):
     if kind == "half_space":
         n = exact(shape["normal"])
         return abs(F(shape["offset"])) / sqrt_lo(dot(n, n))
-    if kind in ("hull", "mesh"):
+    if kind in ("hull", "mesh", "solid_mesh"):
         v = [exact(p) for p in shape["vertices"]]
         longest = max(max(p[i] for p in v) - min(p[i] for p in v) for i in range(3))
         return max(longest, sqrt_hi(max(dot(p, p) for p in v)))

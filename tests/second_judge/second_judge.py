@@ -23,13 +23,9 @@ import tempfile
 from fractions import Fraction as F
 
 from exact import Poly, dot, exact, sqrt_hi, sqrt_lo, sub
-from scene import FAR, HalfSpace, Mesh, distance_to, needed, scale, signed_gap, world
+from scene import CannotTell, FAR, HalfSpace, Mesh, distance_to, needed, scale, signed_gap, world
 
 OUTCOMES = ("crashed", "threw", "timed_out", "failed", "unstable", "not_converged", "invalid_input", "relation", "slow")
-
-
-class CannotTell(Exception):
-    pass
 
 
 def numbers(x):

@@ -62,6 +62,20 @@ void polish(GjkResult<R>& g, const Difference<R>& d, const Recent<R>& seen) {
 }
 
 template <class R>
+Distance<R> attempt(const Difference<R>& d, const GjkLimits<R>& limit, const V3<R>& start) {
+  Recent<R> recent;
+  Distance<R> g;
+  static_cast<GjkResult<R>&>(g) = narrow::gjk<R>(d, limit, start, recent);
+  // A support plane that separates the origin is proof; the signs of a flat tetrahedron are not.
+  if (g.status == GjkStatus::enclosed && g.lower > 0) g.status = GjkStatus::stalled;
+  if (g.status == GjkStatus::stalled) {
+    polish(g, d, recent);
+    if (g.upper - g.lower <= limit.tolerance) g.status = GjkStatus::separated;
+  }
+  return g;
+}
+
+template <class R>
 void set_points(Distance<R>& g) {
   Simplex<R>& s = g.simplex;
   if (s.size == 3) {
@@ -82,15 +96,12 @@ Distance<R> gjk(const ConvexCore<R>& a, const ConvexCore<R>& b, R tolerance, R t
   constexpr int idle = 8;  // near the end the distance stagnates to an ulp while the direction still improves
   const Difference<R> d{a, b};
   const GjkLimits<R> limit{tolerance, std::numeric_limits<R>::infinity(), touching, iterations, idle};
-  detail::Recent<R> recent;
-  Distance<R> g;
-  static_cast<GjkResult<R>&>(g) =
-      narrow::gjk<R>(d, limit, V3<R>(b.frame.translation - a.frame.translation), recent);
-  // A support plane that separates the origin is proof; the signs of a flat tetrahedron are not.
-  if (g.status == GjkStatus::enclosed && g.lower > 0) g.status = GjkStatus::stalled;
-  if (g.status == GjkStatus::stalled) {
-    detail::polish(g, d, recent);
-    if (g.upper - g.lower <= tolerance) g.status = GjkStatus::separated;
+  Distance<R> g = detail::attempt<R>(d, limit, b.frame.translation - a.frame.translation);
+  // From the best direction known, the simplex has no points from far away, whose rounding stalled it.
+  for (int again = 0; again < 3 && g.status == GjkStatus::stalled && g.lower > 0; ++again) {
+    const Distance<R> r = detail::attempt<R>(d, limit, g.normal);
+    if (!(r.lower > 0) || !(r.upper - r.lower < g.upper - g.lower)) break;
+    g = r;
   }
   if (g.status != GjkStatus::enclosed) detail::set_points(g);
   return g;

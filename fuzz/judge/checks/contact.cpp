@@ -82,11 +82,21 @@ void judge_depth_alone(const CheckInput& in, CheckOutput& out, const StatedConta
               direction_certificate(in, c, truth));
 }
 
+// The depth of a solid mesh that is not convex is known as a bracket. What lies inside it is not judged.
+void note_open_depth(const CheckInput& in, CheckOutput& out, const StatedContact& c,
+                     const referee::Bracket& w, const referee::Bracket& least, double most_regret) {
+  if (!in.is_mesh(c.a) && !in.is_mesh(c.b)) return;
+  const double tau = in.tau(c.a, c.b, in.truth.scale(c.a, c.b));
+  const bool is_least = w.hi - least.lo <= most_regret;
+  const bool is_depth = !c.depth || (w.hi - *c.depth <= tau && *c.depth - w.lo <= tau);
+  if (!is_least || !is_depth) out.not_judged("a solid's depth within its bracket", true);
+}
+
 }  // namespace
 
 double certain_depth(const CheckInput& in, int a, int b, const referee::PairTruth& truth) {
-  const double depth = std::isfinite(truth.gap.lo) ? -truth.gap.hi : in.truth.depth_in_mesh(in.frame, a, b);
-  return std::max(0.0, depth);
+  if (std::isfinite(truth.gap.lo)) return std::max(0.0, -truth.gap.hi);
+  return std::max({0.0, -truth.gap.hi, in.truth.depth_in_mesh(in.frame, a, b)});
 }
 
 bool judge_validity(const CheckInput& in, CheckOutput& out, const StatedContact& c) {
@@ -120,6 +130,7 @@ void judge_normal_and_depth(const CheckInput& in, CheckOutput& out, const Stated
               fmt::format("the stated normal needs {:.9g}; the least depth is {:.9g}", w.lo,
                           (least.lo + least.hi) / 2),
               direction_certificate(in, c, truth));
+  note_open_depth(in, out, c, w, least, most_regret);
   if (!c.depth) return;
   const double depth = *c.depth, infeasible = w.lo - depth,
                excess = depth - (is_speculative(in, truth) ? w.hi : std::max(0.0, w.hi));

@@ -52,6 +52,10 @@ void check_distance(const CheckInput& in, CheckOutput& out) {
   // An overlapping mesh has distance 0 but no depth.
   if (truth.verdict == referee::Verdict::overlap && !std::isfinite(truth.gap.lo) && d < -tau)
     out.not_judged("depth", true);
+  const bool is_open = std::isfinite(truth.gap.lo) && std::max(d - truth.gap.lo, truth.gap.hi - d) > tau;
+  if (error <= tau && is_open && truth.verdict == referee::Verdict::overlap &&
+      (in.is_mesh(a) || in.is_mesh(b)))
+    out.not_judged("a solid's depth within its bracket", true);
   if (error <= tau) return;
   const double mid = std::isfinite(truth.gap.lo) ? (truth.gap.lo + truth.gap.hi) / 2 : truth.gap.hi;
   Fault f = Fault::distance_off;

@@ -138,7 +138,7 @@ void check_gradient(const CheckInput& in, CheckOutput& out) {
   out.frame_matters();
   const referee::PairTruth& truth = in.truth.pair(in.frame, a, b);
   const double l = in.truth.scale(a, b);
-  const bool surface = in.is_surface(a) || in.is_surface(b);
+  const bool surface = in.is_mesh(a) || in.is_mesh(b);
   const bool known = truth.verdict != referee::Verdict::undecided && (surface || std::isfinite(truth.gap.lo));
   if (!known) {
     // Two half-spaces that overlap have no depth.

@@ -83,7 +83,7 @@ void check_point_depths(const CheckInput& in, CheckOutput& out, double l, double
   if (!(std::abs(n.stableNorm() - 1) < 0.5)) return;  // another fault
   const auto [a, b] = std::pair{in.query.a, in.query.b};
   const double most = std::max(0.0, in.truth.width(in.frame, a, b, n).hi);
-  const bool surface = in.is_surface(a) || in.is_surface(b) || !std::isfinite(truth.gap.lo);
+  const bool surface = in.is_mesh(a) || in.is_mesh(b) || !std::isfinite(truth.gap.lo);
   for (const ManifoldPoint& p : in.answer.manifold) {
     if (std::isnan(p.depth)) continue;  // not stated
     if (std::isinf(p.depth))

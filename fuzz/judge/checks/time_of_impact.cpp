@@ -17,10 +17,7 @@ using Verdict = referee::TimeTruth::Verdict;
 
 // Qualifies the depth in a message.
 std::string_view of_what(const CheckInput& in) {
-  const auto is_mesh = [&](int body) {
-    return std::holds_alternative<TriangleMesh>(in.truth.scene().shape_of(body));
-  };
-  return is_mesh(in.query.a) || is_mesh(in.query.b) ? " (in one triangle)" : "";
+  return in.is_mesh(in.query.a) || in.is_mesh(in.query.b) ? " (in one triangle)" : "";
 }
 
 // "No impact": wrong by the depth that is certain at some time of the step.

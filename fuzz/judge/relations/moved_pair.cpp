@@ -100,8 +100,7 @@ std::vector<Derived> derive_push(const RelationInput& in) {
     Derived d = same_pair(in, "B pushed by the depth along the normal");
     // Neither a surface nor an invalid direction (which is another fault) can be pushed apart.
     const double length = o.normal->stableNorm();
-    if (kind_of(d.c.scene.shape_of(0)) == ShapeKind::mesh ||
-        kind_of(d.c.scene.shape_of(1)) == ShapeKind::mesh || !(length > 0.5 && length < 2))
+    if (is_mesh(d.c.scene.shape_of(0)) || is_mesh(d.c.scene.shape_of(1)) || !(length > 0.5 && length < 2))
       continue;
     d.same_questions = false;
     d.rounding = pose_rounding(d.c.scene);
@@ -163,8 +162,7 @@ std::optional<Slope> implied_slope(const RelationInput& in, const Query& q, cons
                                    double tau) {
   constexpr double least_distance = 1e-3;  // of L
   const Scene& s = in.c.scene;
-  const auto is_mesh = [&](int body) { return kind_of(s.shape_of(body)) == ShapeKind::mesh; };
-  if (!o.witness || is_mesh(q.a) || is_mesh(q.b)) return std::nullopt;
+  if (!o.witness || is_mesh(s.shape_of(q.a)) || is_mesh(s.shape_of(q.b))) return std::nullopt;
   const Vec3 way = (*o.witness)[1] - (*o.witness)[0];
   const double length = way.stableNorm();
   if (!(length > least_distance * scale_of_pair(s, q.a, q.b)) || !std::isfinite(length)) return std::nullopt;

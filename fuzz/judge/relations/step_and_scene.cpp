@@ -209,9 +209,7 @@ std::optional<RelationBreak> find_other_contacts(const Relation& r, const Relati
     for (const auto& [pair, p] : with) {
       const auto [a, b] = pair;
       const Scene& s = in.c.scene;
-      if (without.contains(pair) || kind_of(s.shape_of(a)) == ShapeKind::mesh ||
-          kind_of(s.shape_of(b)) == ShapeKind::mesh)
-        continue;
+      if (without.contains(pair) || is_mesh(s.shape_of(a)) || is_mesh(s.shape_of(b))) continue;
       const double l = scale_of_pair(s, a, b);
       const double tau = std::max(tau_of(in.card, before, s, a, b, l), tau_of(in.card, after, s, a, b, l));
       const double bias = depth_bias(in.card, kind_of(s.shape_of(a)), kind_of(s.shape_of(b)));

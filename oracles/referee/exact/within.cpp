@@ -13,6 +13,7 @@
 #include "oracles/referee/exact/exact_pair.h"
 #include "oracles/referee/filter/convex.h"
 #include "oracles/referee/limits.h"
+#include "oracles/referee/solid/solid.h"
 #include "oracles/referee/work.h"
 
 namespace touchstone::referee {
@@ -205,8 +206,27 @@ Verdict decide_within(const Placed& a, const Placed& b, double margin, const Pai
 
 }  // namespace
 
+namespace {
+
+// Apart or inside is known from `truth`; of bodies apart, the surfaces decide.
+Verdict decide_within_of_solids(const Placed& a, const Placed& b, double margin, const PairTruth& truth) {
+  if (truth.gap.lo > margin) return Verdict::disjoint;
+  if (truth.gap.hi <= margin) return Verdict::overlap;
+  const AsHulls hulls(a, b);
+  if (hulls.are_plain()) return decide_within(hulls.a(), hulls.b(), margin, truth);
+  if (margin == 0) return truth.verdict;
+  if (truth.verdict != Verdict::disjoint) return Verdict::undecided;
+  const AsSurface x(hulls.a()), y(hulls.b());
+  return decide_within(*x, *y, margin, truth);
+}
+
+}  // namespace
+
 Verdict judge_within(const Placed& a, const Placed& b, double margin, const PairTruth& truth) {
-  return within_limit(Verdict::undecided, [&] { return decide_within(a, b, margin, truth); });
+  return within_limit(Verdict::undecided, [&] {
+    return has_solid(a, b) ? decide_within_of_solids(a, b, margin, truth)
+                           : decide_within(a, b, margin, truth);
+  });
 }
 
 }  // namespace touchstone::referee

@@ -7,6 +7,7 @@
 
 #include "oracles/referee/filter/convex.h"
 #include "oracles/referee/limits.h"
+#include "oracles/referee/solid/solid.h"
 #include "oracles/referee/work.h"
 
 namespace touchstone::referee {
@@ -140,10 +141,11 @@ void estimate(NearMinimalNormals& r, const Difference& d, const Real3& best) {
 }
 
 NearMinimalNormals all_of(const Placed& a, const Placed& b) {
+  if (const AsHulls hulls(a, b); has_solid(a, b) && hulls.are_plain()) return all_of(hulls.a(), hulls.b());
   const PairTruth t = judge_pair(a, b);
   NearMinimalNormals r;
   r.second_best = r.conditioning = std::numeric_limits<double>::infinity();
-  const bool bounded = !is<HalfSpace>(a) && !is<HalfSpace>(b) && !is<TriangleMesh>(a) && !is<TriangleMesh>(b);
+  const bool bounded = !is<HalfSpace>(a) && !is<HalfSpace>(b) && !is_mesh(*a.shape) && !is_mesh(*b.shape);
   r.depth = std::isfinite(t.gap.lo) ? -0.5 * (t.gap.lo + t.gap.hi) : std::numeric_limits<double>::infinity();
   if (t.verdict != Verdict::overlap || !bounded) {
     r.normals = {t.normal};

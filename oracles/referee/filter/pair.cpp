@@ -7,6 +7,7 @@
 #include "oracles/referee/filter/convex.h"
 #include "oracles/referee/filter/half_space.h"
 #include "oracles/referee/filter/wide_search.h"
+#include "oracles/referee/solid/solid.h"
 #include "oracles/referee/work.h"
 
 namespace touchstone::referee {
@@ -169,6 +170,7 @@ PairTruth judge_by_bracket(const Placed& a, const Placed& b, std::span<const Vec
 }
 
 Certificate deepest_inside(const PairTruth& truth, const Placed& a, const Placed& b) {
+  if (has_solid(a, b)) return {};  // the checker knows no depth of meshes
   if (truth.verdict != Verdict::overlap || !std::isfinite(truth.gap.lo)) return {};
   if (is<HalfSpace>(a) || is<HalfSpace>(b)) return half_space_depth(a, b);
   if (is<TriangleMesh>(a) || is<TriangleMesh>(b)) return {};
@@ -206,6 +208,40 @@ PairTruth judge(const Placed& a, const Placed& b, std::span<const Vec3> hint_dir
   return r;
 }
 
+Certificate point_of(const Rational3& p) {
+  Certificate c;
+  c.kind = Certificate::Kind::common_point;
+  for (int k = 0; k < 3; ++k) {
+    c.rationals.push_back(text_of(p[k]));
+    c.point[k] = p[k].convert_to<double>();
+  }
+  return c;
+}
+
+// Where surfaces do not meet, one body may be inside the other. A surface that is no solid's has no depth.
+PairTruth judge_solids(const Placed& a, const Placed& b, std::span<const Vec3> hint_directions,
+                       std::span<const Vec3> hint_points) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const AsHulls hulls(a, b);
+  const Placed &x = hulls.a(), &y = hulls.b();
+  if (hulls.are_plain()) return judge(x, y, hint_directions, hint_points);
+  const AsSurface surface_x(x), surface_y(y);
+  PairTruth r = judge(*surface_x, *surface_y, hint_directions, hint_points);
+  if (r.verdict == Verdict::undecided) r.gap.lo = -infinity;
+  if (r.verdict == Verdict::disjoint)
+    if (const auto p = point_inside(x, y)) {
+      r.verdict = Verdict::overlap;
+      r.gap = {-infinity, 0};
+      r.verdict_certificate = point_of(*p);
+      r.witness.fill(r.verdict_certificate.point);
+    }
+  if (r.verdict != Verdict::overlap || is<TriangleMesh>(x) || is<TriangleMesh>(y)) return r;
+  const SolidDepth d = depth_of_solids(x, y, hint_directions);
+  r.gap = {-d.depth.hi, -d.depth.lo};
+  if (!d.normal.isZero(0)) r.normal = d.normal;
+  return r;
+}
+
 PairTruth nothing_known() {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   PairTruth r;
@@ -225,7 +261,10 @@ Certificate depth_certificate(const PairTruth& truth, const Placed& a, const Pla
 
 PairTruth judge_pair(const Placed& a, const Placed& b, std::span<const Vec3> hint_directions,
                      std::span<const Vec3> hint_points) {
-  return within_limit(nothing_known(), [&] { return judge(a, b, hint_directions, hint_points); });
+  return within_limit(nothing_known(), [&] {
+    return has_solid(a, b) ? judge_solids(a, b, hint_directions, hint_points)
+                           : judge(a, b, hint_directions, hint_points);
+  });
 }
 
 }  // namespace touchstone::referee

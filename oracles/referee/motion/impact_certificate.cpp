@@ -9,6 +9,7 @@
 #include "oracles/referee/exact/exact_pair.h"
 #include "oracles/referee/filter/half_space.h"
 #include "oracles/referee/motion/moving_plane.h"
+#include "oracles/referee/solid/solid.h"
 #include "oracles/referee/work.h"
 
 namespace touchstone::referee {
@@ -251,16 +252,19 @@ ImpactCertificate certificate_for(const Placed& a, const Motion& motion_a, const
 
 void add_overlap(ImpactCertificate& c, const Placed& a, const Motion& motion_a, const Placed& b,
                  const Motion& motion_b, const DepthInTime& deepest) {
+  const AsSurface x(a), y(b);
   c = within_limit(c, [&] {
     ImpactCertificate with = c;
-    overlap_for(with, a, motion_a, b, motion_b, deepest);
+    overlap_for(with, *x, motion_a, *y, motion_b, deepest);
     return with;
   });
 }
 
 ImpactCertificate impact_certificate(const Placed& a, const Motion& motion_a, const Placed& b,
                                      const Motion& motion_b, const TimeTruth& truth) {
-  return within_limit(ImpactCertificate{}, [&] { return certificate_for(a, motion_a, b, motion_b, truth); });
+  const AsSurface x(a), y(b);
+  return within_limit(ImpactCertificate{},
+                      [&] { return certificate_for(*x, motion_a, *y, motion_b, truth); });
 }
 
 }  // namespace touchstone::referee

@@ -13,6 +13,7 @@
 #include <algorithm>
 
 #include "oracles/referee/limits.h"
+#include "oracles/referee/solid/solid.h"
 #include "oracles/referee/work.h"
 
 namespace touchstone::referee {
@@ -368,13 +369,22 @@ TimeTruth judge(const Placed& a, const Motion& motion_a, const Placed& b, const 
   return r;
 }
 
+// What begins outside a solid meets its surface first.
+TimeTruth judge_solids(const Placed& a, const Motion& motion_a, const Placed& b, const Motion& motion_b) {
+  if (point_inside(a, b)) return hit_between(0, 0, "overlap at the start");
+  const AsSurface x(a), y(b);
+  return judge(*x, motion_a, *y, motion_b);
+}
+
 }  // namespace
 
 TimeTruth judge_motion(const Placed& a, const Motion& motion_a, const Placed& b, const Motion& motion_b) {
   TimeTruth open;
   open.least_gap = {-infinity, infinity};
   open.note = too_expensive;
-  return within_limit(std::move(open), [&] { return judge(a, motion_a, b, motion_b); });
+  return within_limit(std::move(open), [&] {
+    return has_solid(a, b) ? judge_solids(a, motion_a, b, motion_b) : judge(a, motion_a, b, motion_b);
+  });
 }
 
 }  // namespace touchstone::referee

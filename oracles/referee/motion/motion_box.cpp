@@ -3,6 +3,7 @@
 
 #include "oracles/referee/filter/convex.h"
 #include "oracles/referee/motion/motion.h"
+#include "oracles/referee/solid/solid.h"
 
 namespace touchstone::referee {
 
@@ -33,6 +34,7 @@ Aabb box_over(const Mover& m, const Vec3& origin) {
 }
 
 Aabb outer_box(const Placed& a, const Motion& motion) {
+  if (is_solid(a)) return outer_box(*AsSurface(a), motion);
   if (std::holds_alternative<HalfSpace>(*a.shape)) {
     const bool rests = motion.linear.isZero(0) && motion.angular.isZero(0);
     return rests ? outer_box(a) : Aabb{Vec3::Constant(-infinity), Vec3::Constant(infinity)};

@@ -4,6 +4,7 @@
 #include "oracles/referee/filter/convex.h"
 #include "oracles/referee/limits.h"
 #include "oracles/referee/motion/motion.h"
+#include "oracles/referee/solid/solid.h"
 #include "oracles/referee/work.h"
 
 namespace touchstone::referee {
@@ -107,10 +108,45 @@ Bracket gap_at_time(const Placed& a, const Motion& motion_a, const Placed& b, co
   return {round_down(g.lo), round_up(g.hi)};
 }
 
+// Whether a point of each body at time t, rounded, is inside the other, which rests if it is a solid.
+bool is_inside_at(const Placed& solid, const Placed& other, const Motion& motion, double t) {
+  const Vec3 at = translation_of(other);
+  for (const Mover& m : movers(other, motion, Vec3::Zero())) {
+    const Solid s = m.at(t, at).body;
+    const Real3 p = s.kind == Solid::Kind::points ? s.points.front() : s.centre;
+    if (is_inside(solid, exact(to_double(p + to_real(at))))) return true;
+  }
+  return false;
+}
+
+// Surfaces farther apart than rounding say nothing about which is inside the other.
+Bracket gap_of_solids(const Placed& a, const Motion& motion_a, const Placed& b, const Motion& motion_b,
+                      double t) {
+  constexpr double rounding =
+      0x1p-48;  // of coordinates and sizes: what a point is moved by when it is rounded
+  const AsHulls hulls(a, b);
+  if (hulls.are_plain()) return gap_at_time(hulls.a(), motion_a, hulls.b(), motion_b, t);
+  const AsSurface x(a), y(b);
+  Bracket r = gap_at_time(*x, motion_a, *y, motion_b, t);
+  const double size = bounding_radius(*a.shape) + bounding_radius(*b.shape) + translation_of(a).stableNorm() +
+                      translation_of(b).stableNorm() + motion_a.linear.stableNorm() +
+                      motion_b.linear.stableNorm();
+  if (r.lo <= rounding * size) {
+    r.lo = -infinity;
+    return r;
+  }
+  if ((is_solid(a) && is_inside_at(a, *y, motion_b, t)) || (is_solid(b) && is_inside_at(b, *x, motion_a, t)))
+    return {-infinity, 0};
+  return r;
+}
+
 }  // namespace
 
 Bracket gap_at(const Placed& a, const Motion& motion_a, const Placed& b, const Motion& motion_b, double t) {
-  return within_limit(Bracket{-infinity, infinity}, [&] { return gap_at_time(a, motion_a, b, motion_b, t); });
+  return within_limit(Bracket{-infinity, infinity}, [&] {
+    return has_solid(a, b) ? gap_of_solids(a, motion_a, b, motion_b, t)
+                           : gap_at_time(a, motion_a, b, motion_b, t);
+  });
 }
 
 namespace {
@@ -212,11 +248,25 @@ DepthInTime deepest(const Placed& a, const Motion& motion_a, const Placed& b, co
   return r;
 }
 
+// In triangles of the surface, or, for bodies of which one begins inside the other, at the start.
+DepthInTime deepest_of_solids(const Placed& a, const Motion& motion_a, const Placed& b,
+                              const Motion& motion_b, double t, double contact) {
+  const AsSurface x(a), y(b);
+  DepthInTime r = deepest(*x, motion_a, *y, motion_b, t, contact);
+  if (!(t > 0) || !is_bounded(kind_of(*a.shape)) || !is_bounded(kind_of(*b.shape))) return r;
+  if (!point_inside(a, b)) return r;
+  if (const double at_start = depth_at_least(a, b); at_start > r.depth) r = {at_start, 0, 0, 0};
+  return r;
+}
+
 }  // namespace
 
 DepthInTime deepest_before(const Placed& a, const Motion& motion_a, const Placed& b, const Motion& motion_b,
                            double t, double contact) {
-  return within_limit(DepthInTime{-infinity}, [&] { return deepest(a, motion_a, b, motion_b, t, contact); });
+  return within_limit(DepthInTime{-infinity}, [&] {
+    return has_solid(a, b) ? deepest_of_solids(a, motion_a, b, motion_b, t, contact)
+                           : deepest(a, motion_a, b, motion_b, t, contact);
+  });
 }
 
 double certified_depth_before(const Placed& a, const Motion& motion_a, const Placed& b,

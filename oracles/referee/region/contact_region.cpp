@@ -16,6 +16,7 @@
 #include "oracles/referee/exact/exact_pair.h"
 #include "oracles/referee/filter/convex.h"
 #include "oracles/referee/region/plane_polygon.h"
+#include "oracles/referee/solid/solid.h"
 
 namespace touchstone::referee {
 namespace {
@@ -219,6 +220,10 @@ bool is(const Placed& p) {
 }  // namespace
 
 ContactRegion contact_region(const Placed& a, const Placed& b, const Vec3& normal_ab, double slack) {
+  if (has_solid(a, b)) {
+    const AsHulls hulls(a, b);
+    return hulls.are_plain() ? contact_region(hulls.a(), hulls.b(), normal_ab, slack) : ContactRegion{};
+  }
   if (is<TriangleMesh>(a) || is<TriangleMesh>(b) || (is<HalfSpace>(a) && is<HalfSpace>(b))) return {};
   ContactRegion r;
   double size = 0;

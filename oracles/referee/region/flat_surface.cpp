@@ -172,8 +172,7 @@ class Search {
 }  // namespace
 
 std::optional<FlatSurface> flat_surface(const Placed& mesh, const Placed& body) {
-  if (std::holds_alternative<HalfSpace>(*body.shape) || std::holds_alternative<TriangleMesh>(*body.shape))
-    return std::nullopt;
+  if (std::holds_alternative<HalfSpace>(*body.shape) || is_mesh(*body.shape)) return std::nullopt;
   return within_limit(std::optional<FlatSurface>{}, [&] { return Search(mesh, body).run(); });
 }
 

@@ -196,3 +196,28 @@ TEST_CASE("a number that JSON cannot represent is not written", "[scene][codec][
   s.shapes = {Sphere{std::numeric_limits<double>::infinity()}};
   CHECK(contains(refusal([&] { to_text(s); }), "inf"));
 }
+
+TEST_CASE("a mesh may be declared solid, and one that encloses nothing is refused by the place of the fault",
+          "[scene][codec][bad-input]") {
+  const auto scene = [](const std::string& solid, const std::string& triangles) {
+    return body_scene(R"({"shape":0,"static":true})",
+                      R"({"type":"mesh","solid":)" + solid +
+                          R"(,"vertices":[[0,0,0],[1,0,0],[0,1,0],[0,0,1]],"triangles":)" + triangles + "}");
+  };
+  const std::string good = "[[0,2,1],[0,1,3],[0,3,2],[1,2,3]]";
+  const Scene solid = scene_from_text(scene("true", good));
+  CHECK(kind_of(solid.shapes[0]) == ShapeKind::solid_mesh);
+  CHECK(kind_of(scene_from_text(scene("false", good)).shapes[0]) == ShapeKind::mesh);
+  CHECK(scene_from_text(to_text(solid)).shapes[0] == solid.shapes[0]);
+  check_all({
+      {scene("1", good), "f.json: shapes[0].solid", ""},
+      {scene("true", "[[0,1,2],[0,1,3],[0,3,2],[1,2,3]]"), "f.json: shapes[0].triangles[1]",
+       "runs along the edge from vertex 0 to 1 in the same direction as triangles[0]"},
+      {scene("true", "[[0,2,1],[0,1,3],[0,3,2]]"), "f.json: shapes[0].triangles[0]",
+       "has no triangle on the other side of the edge from vertex 2 to 1: the mesh is open there"},
+      {scene("true", "[[0,1,2],[0,3,1],[0,2,3],[1,3,2]]"), "f.json: shapes[0].triangles[0]",
+       "is clockwise seen from outside"},
+      {scene("true", "[[0,2,1],[0,1,3],[0,3,2],[1,2,4]]"), "f.json: shapes[0].triangles[3]",
+       "vertex index 4 is outside 0..3"},
+  });
+}

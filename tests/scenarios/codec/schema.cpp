@@ -85,6 +85,8 @@ TEST_CASE("the schema lists exactly the fields that the codec knows", "[scene][s
     CHECK(fields_in_schema(defs[scene_fields::op_names[i]]) == as_set(scene_fields::of_op[i]));
   std::set<std::string> refs;
   for (const Json& ref : defs["shape"]["oneOf"]) refs.insert(ref["$ref"].get<std::string>());
+  // Another way to write a mesh or a solid mesh.
+  CHECK(refs.erase("#/$defs/declared_mesh") == 1);
   CHECK(refs.size() == std::variant_size_v<Shape>);
   int shapes = 0;
   for_each_shape_type([&](auto shape) {

@@ -61,6 +61,12 @@ inline Shape nasty_shape(Rng& rng, ShapeKind kind) {
       return TriangleMesh{points(5), {{0, 1, 2}, {4, 3, 2}, {1, 1, 1}}};
     case ShapeKind::rounded_box:
       return RoundedBox{sizes(), size()};
+    case ShapeKind::solid_mesh: {
+      const double scale = rng.binary_scale(-60, 60);
+      TriangleMesh m{{Vec3::Zero(), Vec3::UnitX() * scale, Vec3::UnitY() * scale, Vec3::UnitZ() * scale},
+                     {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
+      return SolidMesh(std::move(m));
+    }
   }
   return Sphere{1};
 }
@@ -83,7 +89,7 @@ inline Scene nasty_scene(Rng& rng) {
     b.shape = static_cast<int>(rng.below(s.shapes.size()));
     b.pose = nasty_pose(rng);
     const ShapeKind kind = kind_of(s.shapes[static_cast<std::size_t>(b.shape)]);
-    const bool can_move = kind != ShapeKind::mesh && kind != ShapeKind::half_space;
+    const bool can_move = is_convex(kind);
     if (can_move && rng.chance(0.5)) b.motion = Motion{nasty_vec3(rng), nasty_vec3(rng)};
     if (rng.chance(0.2)) b.motion = Motion{};
     b.is_static = rng.chance(0.3);

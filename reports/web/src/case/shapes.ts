@@ -79,6 +79,10 @@ const table = {
     reach: farthest,
     geometry: (s, { scale }) => triangles(s.vertices!, s.triangles!, scale),
   },
+  solid_mesh: {
+    reach: farthest,
+    geometry: (s, { scale }) => triangles(s.vertices!, s.triangles!, scale),
+  },
 } satisfies Record<string, Row>;
 
 export type ShapeType = keyof typeof table;
