@@ -96,7 +96,7 @@ TEST_CASE("a ball on a cylinder's axis leaves in every lateral direction, or in 
 TEST_CASE("random boxes: the listed directions and the second best are those of the fifteen axes",
           "[referee][normals]") {
   Rng r(9);
-  int several = 0, judged = 0;
+  int judged = 0;
   for (int i = 0; i < 400; ++i) {
     const auto s = [&] { return r.uniform(0.2, 1); };
     const Shape x = Box{{s(), s(), s()}}, y = Box{{s(), s(), s()}};
@@ -124,7 +124,6 @@ TEST_CASE("random boxes: the listed directions and the second best are those of 
         is_axis |= std::abs(width(a, b, sign * m).hi - n.second_best) < 1e-13;
     REQUIRE(is_axis);
     REQUIRE(n.conditioning >= n.slack);
-    several += n.normals.size() > 1;
     for (std::size_t k = 0; k < n.normals.size(); ++k) {
       const Bracket w = width(a, b, n.normals[k]);
       REQUIRE(w.lo <= n.widths[k] + 1e-14);

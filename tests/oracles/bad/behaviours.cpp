@@ -106,16 +106,16 @@ void answer_nan(ts_answer* out) {
 
 // Functions that a call stack can name.
 extern "C" {
-TS_EXPORT [[gnu::noinline]] void bad_writes_nowhere() {
+[[gnu::noinline]] TS_EXPORT void bad_writes_nowhere() {
   *reinterpret_cast<volatile int*>(sink_value & 1) = 1;
   sink_value = sink_value + 2;
 }
-TS_EXPORT [[gnu::noinline]] void bad_calls_nothing() {
+[[gnu::noinline]] TS_EXPORT void bad_calls_nothing() {
   void (*volatile nothing)() = nullptr;
   nothing();
   sink_value = sink_value + 2;
 }
-TS_EXPORT [[gnu::noinline]] void bad_asserts(const ts_answer* out) {
+[[gnu::noinline]] TS_EXPORT void bad_asserts(const ts_answer* out) {
   assert(out == nullptr && "an answer is not wanted");
   sink_value = sink_value + 2;
 }
