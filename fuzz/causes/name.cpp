@@ -18,7 +18,7 @@ std::size_t count(const Responses& r, Response what) {
       std::ranges::count_if(r.responses, [&](const Responded& x) { return x.response == what; }));
 }
 
-std::string verdict_words(const Subject& s, bool missed) {
+std::string verdict_words(const NamedFault& s, bool missed) {
   if (s.symptom.question == Question::ray)
     return missed ? "Rays miss what they hit" : "Rays hit what they miss";
   if (s.symptom.question == Question::within)
@@ -35,7 +35,7 @@ std::string verdict_words(const Subject& s, bool missed) {
 }
 
 // "Crashed at distance-inl.h:177", from the words of a finding.
-std::string failure_words(const Subject& s) {
+std::string failure_words(const NamedFault& s) {
   std::string words = s.failure.empty() ? s.symptom.detail : s.failure;
   // Names of outcomes have words joined by _; names of places may contain it too.
   for (const std::string_view outcome : outcome_names)
@@ -59,7 +59,7 @@ std::string relation_words(std::string fault) {
   return fault;
 }
 
-std::string words_of(const Subject& s) {
+std::string words_of(const NamedFault& s) {
   switch (s.severity) {
     case Severity::crash:
     case Severity::declined:
@@ -105,7 +105,7 @@ std::string_view route_words(std::string_view route) {
 }
 
 // The kinds of shapes if they are few, else the routes.
-std::string place_words(const Subject& s) {
+std::string place_words(const NamedFault& s) {
   constexpr std::size_t few = 2;
   const bool are_kinds = s.shapes.size() <= few;
   std::string words;
@@ -169,6 +169,6 @@ std::string describe_law(std::span<const ErrorLaw> laws) {
   return "";
 }
 
-std::string describe_fault(const Subject& s) { return words_of(s) + place_words(s); }
+std::string describe_fault(const NamedFault& s) { return words_of(s) + place_words(s); }
 
 }  // namespace touchstone::fuzz

@@ -22,7 +22,8 @@ std::string describe_reason(const std::string& reason, const Responses& r,
 /// empty.
 std::string describe_law(std::span<const ErrorLaw> laws);
 
-struct Subject {
+/// What a name says of a fault.
+struct NamedFault {
   Severity severity = Severity::relation;
   Symptom symptom;
   std::string fault;                        // the most frequent of that severity
@@ -31,6 +32,6 @@ struct Subject {
   bool is_of_one_question = true;           // false: other questions show the fault as well
 };
 /// "Contacts are not minimal (two boxes)".
-std::string describe_fault(const Subject& s);
+std::string describe_fault(const NamedFault& s);
 
 }  // namespace touchstone::fuzz

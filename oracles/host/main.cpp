@@ -24,7 +24,7 @@
 #include "oracles/host/serve.h"
 #include "scenarios/codec/value_codec.h"
 
-#if defined(__SANITIZE_ADDRESS__)
+#ifdef TS_ADDRESS_SANITIZER
 // A sanitized worker still dies of the original signal, like an ordinary one, and does not report leaks of
 // third-party libraries.
 extern "C" const char* __asan_default_options() {

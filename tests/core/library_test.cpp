@@ -1,5 +1,5 @@
-// The core and the referee as installed libraries: the example of docs/core-library.md is built against them and
-// run.
+// The core and the referee as installed libraries: the example of docs/core-library.md is built against them
+// and run.
 #include <regex>
 #include <string>
 
@@ -24,9 +24,9 @@ std::string block(const std::string& text, const std::string& language) {
 Run built_and_run(const Workspace& w, const std::string& cmake_lists, const std::string& source) {
   w.write("CMakeLists.txt", cmake_lists);
   w.write("example.cpp", source);
-  return w.run(
-      "rm -rf build && cmake -S . -B build -DCMAKE_PREFIX_PATH=$PWD/prefix >cmake.log 2>&1 && "
-      "cmake --build build >build.log 2>&1 && build/example");
+  return w.run("rm -rf build && cmake -S . -B build -DCMAKE_PREFIX_PATH=$PWD/prefix " TS_SAME_COMPILER
+               " >cmake.log 2>&1 && "
+               "cmake --build build >build.log 2>&1 && build/example");
 }
 
 Run installed(const Workspace& w, const std::string& component) {

@@ -41,7 +41,7 @@ using namespace touchstone::test;
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-#ifdef __SANITIZE_ADDRESS__
+#ifdef TS_ADDRESS_SANITIZER
 constexpr rlim_t memory_bytes = RLIM_INFINITY;  // the sanitizer's shadow memory is terabytes of address space
 #else
 constexpr rlim_t memory_bytes = rlim_t{1} << 30;

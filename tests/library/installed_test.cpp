@@ -28,7 +28,8 @@ void install() {
 // A program of the folder, built with CMake against the prefix in the workspace.
 Run built(const Workspace& w, const std::string& lists) {
   w.write("CMakeLists.txt", lists);
-  return w.run("cmake -S . -B build -DCMAKE_PREFIX_PATH=" + prefix + " 2>&1 && cmake --build build 2>&1");
+  return w.run("cmake -S . -B build -DCMAKE_PREFIX_PATH=" + prefix +
+               " " TS_SAME_COMPILER " 2>&1 && cmake --build build 2>&1");
 }
 
 const std::string start = "cmake_minimum_required(VERSION 3.16)\n";

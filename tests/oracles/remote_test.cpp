@@ -159,7 +159,12 @@ TEST_CASE("a crash is named by its site, the same every time", "[oracles][remote
 }
 
 TEST_CASE("unwritten memory has reproducible contents, which differ when asked again", "[oracles][remote]") {
-  for (const char* name : {"reads_the_stack", "reads_the_heap"}) {
+#ifdef TS_ADDRESS_SANITIZER  // it fills the heap itself
+  const std::vector<const char*> names{"reads_the_stack"};
+#else
+  const std::vector<const char*> names{"reads_the_stack", "reads_the_heap"};
+#endif
+  for (const char* name : names) {
     INFO("engine " << name);
     RemoteEngine engine(bad_spec(name));
     const std::vector<Case> cases = make_cases(3, 1);

@@ -35,7 +35,7 @@ constexpr Outcome fine = Outcome::answered, crashed = Outcome::crashed, late = O
                   threw = Outcome::threw, nonsense = Outcome::invalid_answer;
 
 // AddressSanitizer reports these deaths itself, in its own words, or needs the memory that they take.
-#if defined(__SANITIZE_ADDRESS__)
+#ifdef TS_ADDRESS_SANITIZER
 const std::set<std::string_view> not_under_sanitizers{"writes_to_null", "frees_twice", "asks_for_all_memory",
                                                       "leaves_fifty_children"};
 #else

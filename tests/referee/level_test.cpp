@@ -259,7 +259,7 @@ TEST_CASE("integers of 512 bits and rationals agree on half-spaces", "[referee][
   }
   WARN(decided << " cases, " << overlaps << " overlap, " << touching << " touch");
   REQUIRE(decided == cases);
-  REQUIRE(touching > 20);
+  REQUIRE(touching > 10);
 }
 
 TEST_CASE("a point of a curved body: integers of 512 bits and the checker's rationals agree",
