@@ -76,6 +76,25 @@ DistanceAnswer with_depth(const Pair& pair, DistanceAnswer d) {
   return d;
 }
 
+OverlapAnswer overlap_of(const Pair& pair, Arithmetic arithmetic, PairMemory* memory) {
+  OverlapAnswer r = overlap(pair.a.seen(), pair.b.seen(), arithmetic, memory);
+  if (pair.is_plain() || r.outcome != Outcome::answered || r.overlap) return r;
+  r.overlap = pair.common_point().has_value();
+  return r;
+}
+
+DistanceAnswer distance_of(const Pair& pair, Arithmetic arithmetic, PairMemory* memory) {
+  DistanceAnswer r = distance(pair.a.seen(), pair.b.seen(), arithmetic, memory);
+  if (pair.is_plain() || r.outcome != Outcome::answered) return r;
+  if (r.distance <= 0) return pair.has_depth() ? with_depth(pair, r) : r;
+  const auto common = pair.common_point();
+  if (!common) return r;
+  if (pair.has_depth()) return with_depth(pair, r);
+  r.distance = 0;
+  r.witness = {*common, *common};
+  return r;
+}
+
 }  // namespace
 
 bool has_solid(const ShapeRef& a, const ShapeRef& b) { return is_solid(*a.shape) || is_solid(*b.shape); }
@@ -109,25 +128,12 @@ bool contains_part(const SeenShape& x, const SeenShape& y) { return contained_po
 
 OverlapAnswer solid_overlap(const PlacedShape& a, const PlacedShape& b, Arithmetic arithmetic,
                             PairMemory* memory) {
-  const Pair pair(a, b);
-  OverlapAnswer r = overlap(pair.a.seen(), pair.b.seen(), arithmetic, memory);
-  if (pair.is_plain() || r.outcome != Outcome::answered || r.overlap) return r;
-  r.overlap = pair.common_point().has_value();
-  return r;
+  return overlap_of(Pair(a, b), arithmetic, memory);
 }
 
 DistanceAnswer solid_distance(const PlacedShape& a, const PlacedShape& b, Arithmetic arithmetic,
                               PairMemory* memory) {
-  const Pair pair(a, b);
-  DistanceAnswer r = distance(pair.a.seen(), pair.b.seen(), arithmetic, memory);
-  if (pair.is_plain() || r.outcome != Outcome::answered) return r;
-  if (r.distance <= 0) return pair.has_depth() ? with_depth(pair, r) : r;
-  const auto common = pair.common_point();
-  if (!common) return r;
-  if (pair.has_depth()) return with_depth(pair, r);
-  r.distance = 0;
-  r.witness = {*common, *common};
-  return r;
+  return distance_of(Pair(a, b), arithmetic, memory);
 }
 
 ContactAnswer solid_contact(const PlacedShape& a, const PlacedShape& b, Arithmetic arithmetic,
@@ -136,12 +142,12 @@ ContactAnswer solid_contact(const PlacedShape& a, const PlacedShape& b, Arithmet
   if (pair.is_plain() || arithmetic == Arithmetic::float32)
     return contact(pair.a.seen(), pair.b.seen(), arithmetic, memory);
   ContactAnswer r;
-  const OverlapAnswer met = solid_overlap(a, b, arithmetic, memory);
+  const OverlapAnswer met = overlap_of(pair, arithmetic, memory);
   r.outcome = met.outcome;
   r.overlap = met.overlap;
   r.error_bound = r.regret_bound = met.error_bound;
   if (met.outcome != Outcome::answered || !met.overlap) return r;
-  const DistanceAnswer d = solid_distance(a, b, arithmetic, memory);
+  const DistanceAnswer d = distance_of(pair, arithmetic, memory);
   r.outcome = d.outcome;
   if (d.outcome != Outcome::answered) return r;
   r.normal = d.normal;
@@ -155,7 +161,7 @@ Separation solid_separation(const PlacedShape& a, const PlacedShape& b) {
   const Pair pair(a, b);
   Separation s = separation(pair.a.seen(), pair.b.seen());
   if (pair.is_plain() || s.outcome != Outcome::answered || (s.gap > 0 && !pair.common_point())) return s;
-  const DistanceAnswer d = solid_distance(a, b, Arithmetic::float64, nullptr);
+  const DistanceAnswer d = distance_of(pair, Arithmetic::float64, nullptr);
   s.outcome = d.outcome;
   s.gap = std::min(0.0, d.distance);
   s.normal = d.normal.cast<Wide>();

@@ -4,12 +4,10 @@
 #include <functional>
 #include <limits>
 
+#include "core/math/aabb.h"
 #include "core/math/roundoff.h"
-#include "core/narrow/filtered/query.h"
 #include "core/narrow/mesh.h"
-#include "core/narrow/mesh_pairs.h"
 #include "core/narrow/solid.h"
-#include "core/tolerance.h"
 
 namespace touchstone::narrow {
 namespace {
@@ -19,6 +17,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 // Directions tried for one pair, and motions along one of them: each passes a triangle at least. Then motions
 // back along it, and directions found where the bodies touch at its end.
 constexpr std::size_t most_directions = 96;
+// Directions whose cosine is larger lead out equally far.
+constexpr double same_cosine = 1 - 1e-12;
 constexpr int most_steps = 1024, most_returns = 32, most_halvings = 52, most_turns = 256;
 // A way is followed back from its end when that is at most this many times as far as the best way known.
 constexpr double most_overshoot = 4;
@@ -55,9 +55,11 @@ struct Part {
   }
 };
 
-Interval<double> extent_along(const PlacedShape& p, const Vec3& n) {
-  const Vec3 local = rotation_matrix(p.pose.rotation).transpose() * n;
-  return std::visit([&](const auto& s) { return s.extent_along(local); }, *p.shape);
+Vec3 in_frame_of(const PlacedShape& p, const Vec3& n) {
+  return rotation_matrix(p.pose.rotation).transpose() * n;
+}
+Interval<double> extent(const Shape& shape, const Vec3& local) {
+  return std::visit([&](const auto& s) { return s.extent_along(local); }, shape);
 }
 
 struct Met {
@@ -95,10 +97,11 @@ class Search {
   }
 
   std::optional<WayOut> run(const DistanceAnswer& apart) {
-    std::vector<Way> found = ways_past_all();
+    const std::vector<Meeting> meetings = meetings_here();
+    std::vector<Way> found = ways_past_all(meetings);
     double least = infinity;
     for (const Way& w : found) least = std::min(least, w.depth);
-    for (const Vec3& n : directions(apart)) {
+    for (const Vec3& n : directions(meetings, apart)) {
       const double far = way_along(n, most_overshoot * least);
       if (!std::isfinite(far)) continue;
       found.push_back({n, shortened(far, n)});
@@ -112,8 +115,8 @@ class Search {
     const Vec3 way = (best.depth + clear_) * best.normal;
     const DistanceAnswer d = distance(a_.seen(), moved(b_.seen(), way));
     if (d.outcome != Outcome::answered) return std::nullopt;
-    return WayOut{
-        best.normal, best.depth, std::min(at_least_, best.depth), {d.witness[0], d.witness[1] - way}};
+    const double at_least = std::min(depth_of_parts(meetings), best.depth);
+    return WayOut{best.normal, best.depth, at_least, {d.witness[0], d.witness[1] - way}};
   }
 
  private:
@@ -135,7 +138,7 @@ class Search {
     Aabb r;
     const Vec3 at = p.pose.translation - a_.placed().pose.translation;
     for (int k = 0; k < 3; ++k) {
-      const Interval<double> e = extent_along(p, Vec3::Unit(k));
+      const Interval<double> e = extent(*p.shape, in_frame_of(p, Vec3::Unit(k)));
       r.lo[k] = at[k] + e.lo - clear_;
       r.hi[k] = at[k] + e.hi + clear_;
     }
@@ -146,26 +149,17 @@ class Search {
   std::vector<Met> met_after(const Vec3& by) const {
     std::vector<Met> r;
     for (std::size_t j = 0; j < parts_b_.size(); ++j) {
-      const Vec3 lo = boxes_b_[j].lo + by, hi = boxes_b_[j].hi + by;
+      const Aabb box{boxes_b_[j].lo + by, boxes_b_[j].hi + by};
       const PlacedShape b = moved(parts_b_[j].placed, by);
-      for (std::size_t i = 0; i < parts_a_.size(); ++i) {
-        if ((boxes_a_[i].lo.array() > hi.array()).any() || (lo.array() > boxes_a_[i].hi.array()).any())
-          continue;
-        if (overlap(parts_a_[i].placed, b).overlap) r.push_back({i, j});
-      }
+      for (std::size_t i = 0; i < parts_a_.size(); ++i)
+        if (overlaps(boxes_a_[i], box) && overlap(parts_a_[i].placed, b).overlap) r.push_back({i, j});
     }
     return r;
   }
 
   Reach reach(const Vec3& n) const {
     Reach r{n, n.dot(apart_), {}, {}};
-    const auto along = [&](const PlacedShape& whole) {
-      return Vec3(rotation_matrix(whole.pose.rotation).transpose() * n);
-    };
-    const auto extent = [](const Shape& shape, const Vec3& local) {
-      return std::visit([&](const auto& s) { return s.extent_along(local); }, shape);
-    };
-    const Vec3 in_a = along(a_.placed()), in_b = along(b_.placed());
+    const Vec3 in_a = in_frame_of(a_.placed(), n), in_b = in_frame_of(b_.placed(), n);
     for (const Part& p : parts_a_) r.a.push_back(extent(*p.placed.shape, in_a).hi);
     for (const Part& p : parts_b_) r.b.push_back(extent(*p.placed.shape, in_b).lo);
     return r;
@@ -243,7 +237,7 @@ class Search {
     std::vector<Plane> planes;
     Way last = best;
     for (int step = 0, since_best = 0; step < most_turns && since_best < most_in_vain; ++step) {
-      find_planes((last.depth + clear_) * last.normal, planes);
+      planes = planes_at((last.depth + clear_) * last.normal, planes);
       const Vec3 by = shortest_past(planes), n = by.stableNormalized();
       if (by.isZero(0) || (n - last.normal).norm() <= same_direction) return;
       const double far = is_clear(by.norm(), n) ? by.norm() : way_along(n, most_overshoot * best.depth);
@@ -257,15 +251,42 @@ class Search {
     }
   }
 
+  // Two parts that meet, and how deep.
+  struct Meeting {
+    Met parts;
+    Separation depth;
+  };
+
+  std::vector<Meeting> meetings_here() const {
+    std::vector<Meeting> r;
+    for (const Met& m : met_after(Vec3::Zero()))
+      r.push_back({m, separation(parts_a_[m.a].placed, parts_b_[m.b].placed)});
+    return r;
+  }
+
+  // Proven: no motion shorter than this separates the parts, and so the bodies.
+  static double depth_of_parts(const std::vector<Meeting>& meetings) {
+    double r = 0;
+    for (const auto& [m, s] : meetings)
+      if (s.outcome == Outcome::answered)
+        r = std::max(r, static_cast<double>(-s.gap) - static_cast<double>(s.slack));
+    return r;
+  }
+
+  // The directions in which B leaves the faces of solids that meet.
+  std::vector<Vec3> ways_out(const Met& m) const {
+    std::vector<Vec3> r;
+    for (const Vec3& n : {parts_a_[m.a].outward, Vec3(-parts_b_[m.b].outward)})
+      if (!n.isZero(0)) r.push_back(n);
+    return r;
+  }
+
   // The shortest motions past the planes of all faces that the bodies meet, and past those of least depth.
-  std::vector<Way> ways_past_all() const {
+  std::vector<Way> ways_past_all(const std::vector<Meeting>& meetings) const {
     std::vector<Way> r;
     std::vector<Plane> faces, least;
-    for (const Met& m : met_after(Vec3::Zero())) {
-      const Part &a = parts_a_[m.a], &b = parts_b_[m.b];
-      for (const Vec3& n : {a.outward, Vec3(-b.outward)})
-        if (!n.isZero(0)) faces.push_back({m, n, width(m, n), 0});
-      const Separation s = separation(a.placed, b.placed);
+    for (const auto& [m, s] : meetings) {
+      for (const Vec3& n : ways_out(m)) faces.push_back({m, n, width(m, n), 0});
       if (s.outcome == Outcome::answered)
         least.push_back({m, s.normal.cast<double>(), -static_cast<double>(s.gap), 0});
     }
@@ -282,8 +303,8 @@ class Search {
   }
 
   double width(const Met& m, const Vec3& n) const {
-    const Vec3 apart = parts_b_[m.b].placed.pose.translation - parts_a_[m.a].placed.pose.translation;
-    return extent_along(parts_a_[m.a].placed, n).hi - extent_along(parts_b_[m.b].placed, n).lo - n.dot(apart);
+    const auto along = [&](const Part& p) { return extent(*p.placed.shape, in_frame_of(p.placed, n)); };
+    return along(parts_a_[m.a]).hi - along(parts_b_[m.b]).lo - n.dot(apart_);
   }
 
   // A plane that keeps two parts apart: they are where a motion t of B has n·t >= least.
@@ -293,28 +314,27 @@ class Search {
     double least, apart;
   };
 
-  // The planes between the parts that nearly touch when B is moved there, and between those of `planes`. The
+  // The planes between the parts that nearly touch when B is moved there, and between those of `known`. The
   // nearest come first.
-  void find_planes(const Vec3& by, std::vector<Plane>& planes) const {
+  std::vector<Plane> planes_at(const Vec3& by, const std::vector<Plane>& known) const {
     const double near = near_factor * size_;
-    std::vector<Plane> there;
+    std::vector<Plane> r;
     for (std::size_t j = 0; j < parts_b_.size(); ++j) {
-      const Vec3 lo = (boxes_b_[j].lo + by).array() - near, hi = (boxes_b_[j].hi + by).array() + near;
+      const Vec3 margin = Vec3::Constant(near);
+      const Aabb box{boxes_b_[j].lo + by - margin, boxes_b_[j].hi + by + margin};
       const PlacedShape b = moved(parts_b_[j].placed, by);
       for (std::size_t i = 0; i < parts_a_.size(); ++i) {
         const bool is_known =
-            std::ranges::any_of(planes, [&](const Plane& p) { return p.parts.a == i && p.parts.b == j; });
-        const bool is_far =
-            (boxes_a_[i].lo.array() > hi.array()).any() || (lo.array() > boxes_a_[i].hi.array()).any();
-        if (is_far && !is_known) continue;
+            std::ranges::any_of(known, [&](const Plane& p) { return p.parts.a == i && p.parts.b == j; });
+        if (!is_known && !overlaps(boxes_a_[i], box)) continue;
         const DistanceAnswer d = distance(parts_a_[i].placed, b);
         if (d.outcome == Outcome::answered && (is_known || d.distance <= near) && !d.normal.isZero(0))
-          there.push_back({{i, j}, d.normal, by.dot(d.normal) - d.distance, d.distance});
+          r.push_back({{i, j}, d.normal, by.dot(d.normal) - d.distance, d.distance});
       }
     }
-    std::ranges::stable_sort(there, {}, &Plane::apart);
-    if (there.size() > most_planes) there.resize(most_planes);
-    planes = std::move(there);
+    std::ranges::stable_sort(r, {}, &Plane::apart);
+    if (r.size() > most_planes) r.resize(most_planes);
+    return r;
   }
 
   // The shortest motion past up to three of the planes that is past all; zero: none is.
@@ -347,22 +367,14 @@ class Search {
     Vec3 n;
   };
 
-  // Of a pair of parts that meet: the least depth of the two, and the ways out of the solids' faces.
-  void add(const Met& m, std::vector<Towards>& out) {
-    const Part &a = parts_a_[m.a], &b = parts_b_[m.b];
-    const Separation s = separation(a.placed, b.placed);
-    const auto depth = static_cast<double>(-s.gap);
-    if (s.outcome == Outcome::answered) {
-      at_least_ = std::max(at_least_, depth - static_cast<double>(s.slack));
-      for (const double sign : {1.0, -1.0}) out.push_back({depth, sign * s.normal.cast<double>()});
-    }
-    if (!a.outward.isZero(0)) out.push_back({depth, a.outward});
-    if (!b.outward.isZero(0)) out.push_back({depth, -b.outward});
-  }
-
-  std::vector<Vec3> directions(const DistanceAnswer& apart) {
+  std::vector<Vec3> directions(const std::vector<Meeting>& meetings, const DistanceAnswer& apart) const {
     std::vector<Towards> found;
-    for (const Met& m : met_after(Vec3::Zero())) add(m, found);
+    for (const auto& [m, s] : meetings) {
+      const auto depth = static_cast<double>(-s.gap);
+      if (s.outcome == Outcome::answered)
+        for (const double sign : {1.0, -1.0}) found.push_back({depth, sign * s.normal.cast<double>()});
+      for (const Vec3& n : ways_out(m)) found.push_back({depth, n});
+    }
     if (found.empty()) {  // one is inside the other: towards the nearest points, and across each face
       found.push_back({infinity, -apart.normal});
       for (const Part& p : parts_a_)
@@ -370,14 +382,12 @@ class Search {
       for (const Part& p : parts_b_)
         if (!p.outward.isZero(0)) found.push_back({0, -p.outward});
     }
-    std::stable_sort(found.begin(), found.end(),
-                     [](const Towards& x, const Towards& y) { return x.depth > y.depth; });
+    std::ranges::stable_sort(found, std::greater<>(), &Towards::depth);
     std::vector<Vec3> r;
     const ContactAnswer hulls = contact(a_.hull(), b_.hull());
     if (hulls.outcome == Outcome::answered && hulls.overlap) r.push_back(hulls.normal);
     for (const Towards& t : found) {
-      constexpr double same = 1 - 1e-12;  // cosine of directions that lead out equally far
-      const bool is_known = std::ranges::any_of(r, [&](const Vec3& n) { return n.dot(t.n) > same; });
+      const bool is_known = std::ranges::any_of(r, [&](const Vec3& n) { return n.dot(t.n) > same_cosine; });
       if (!is_known && r.size() < most_directions) r.push_back(t.n);
     }
     return r;
@@ -387,7 +397,7 @@ class Search {
   std::vector<Part> parts_a_, parts_b_;
   std::vector<Aabb> boxes_a_, boxes_b_;
   Vec3 apart_;
-  double size_ = 0, clear_ = 0, at_least_ = 0;
+  double size_ = 0, clear_ = 0;
 };
 
 }  // namespace

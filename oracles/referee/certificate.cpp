@@ -55,15 +55,17 @@ Certificate point_certificate(const Real3& point, const Vec3& origin) {
   return c;
 }
 
-Certificate exact_certificate(const ExactPair& p, const ExactVerdict& v) {
+Certificate common_point_certificate(const Rational3& point) {
   Certificate c;
-  if (v.overlap) {
-    const Rational3 x = common_point(p, v);
-    c.kind = Certificate::Kind::common_point;
-    c.rationals = texts(x);
-    c.point = {x.x.convert_to<double>(), x.y.convert_to<double>(), x.z.convert_to<double>()};
-    return c;
-  }
+  c.kind = Certificate::Kind::common_point;
+  c.rationals = texts(point);
+  c.point = {point.x.convert_to<double>(), point.y.convert_to<double>(), point.z.convert_to<double>()};
+  return c;
+}
+
+Certificate exact_certificate(const ExactPair& p, const ExactVerdict& v) {
+  if (v.overlap) return common_point_certificate(common_point(p, v));
+  Certificate c;
   const ExactPlane plane = separating_plane(p, v);
   c.kind = Certificate::Kind::separating_plane;
   // Any positive multiple is the same plane; scaled to a size near 1 it has readable doubles.
@@ -134,13 +136,9 @@ Certificate half_space_point(const Placed& h, const ExactBody& body) {
       best = x;
       first = false;
     }
-  Certificate c;
-  c.kind = Certificate::Kind::common_point;
   const Rational over = dot(p.normal, best) - p.offset;
   if (over > 0) best = best - (over / dot(p.normal, p.normal)) * p.normal;
-  c.rationals = texts(best);
-  c.point = {best.x.convert_to<double>(), best.y.convert_to<double>(), best.z.convert_to<double>()};
-  return c;
+  return common_point_certificate(best);
 }
 
 // The half-space's own plane when it is A. When it is B the plane must lie strictly inside the gap: it is

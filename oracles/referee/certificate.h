@@ -9,6 +9,8 @@ namespace touchstone::referee {
 /// none when the direction does not separate with certainty.
 Certificate plane_certificate(const Difference& d, const Real3& direction, const Vec3& origin);
 Certificate point_certificate(const Real3& point, const Vec3& origin);
+/// The point itself, in rationals, and rounded.
+Certificate common_point_certificate(const Rational3& point);
 Certificate exact_certificate(const ExactPair& p, const ExactVerdict& v);
 /// `depth`: the proven lower bound of the depth, balls included; the certificate claims what remains after
 /// its points are rounded.

@@ -18,10 +18,6 @@ const S* get(const Placed& p) {
   return std::get_if<S>(p.shape);
 }
 
-Vec3 translation_of(const Placed& p) {
-  return std::visit([](const auto& x) -> Vec3 { return x.translation; }, p.pose);
-}
-
 /// A mesh is replaced by the hull of its vertices, which has the same support function.
 Solid hull_body(const Placed& p, const Vec3& origin) {
   if (const TriangleMesh* m = triangles_if(*p.shape)) return make_body(m->vertices, 0, frame_of(p, origin));

@@ -26,12 +26,6 @@ double error_of(const PairTruth& t) {
   return (t.witness[0] - t.witness[1] - depth_of(t) * t.normal).stableNorm();
 }
 
-Placed moved(const Placed& p, const Vec3& by) {
-  Placed r = p;
-  std::visit([&](auto& pose) { pose.translation += by; }, r.pose);
-  return r;
-}
-
 }  // namespace
 
 PairTruth with_witness(PairTruth t, const Placed& a, const Placed& b) {
@@ -45,7 +39,7 @@ PairTruth with_witness(PairTruth t, const Placed& a, const Placed& b) {
   const double error = error_of(t);
   if (error <= witness_slack * size) return t;
   const Vec3 way = (std::max(0.0, depth_of(t)) + size) * t.normal;
-  const PairTruth apart = judge_pair(a, moved(b, way));
+  const PairTruth apart = judge_pair(a, with_translation(b, translation_of(b) + way));
   PairTruth better = t;
   better.witness = {apart.witness[0], apart.witness[1] - way};
   return apart.verdict == Verdict::disjoint && error_of(better) < error ? better : t;

@@ -1,9 +1,8 @@
 #include "scenarios/random/families.h"
 
-#include <map>
-
 #include "scenarios/random/place.h"
 #include "scenarios/random/random_shape.h"
+#include "scenarios/random/solid_shapes.h"
 
 namespace touchstone::fuzz {
 namespace {
@@ -46,30 +45,9 @@ TriangleMesh field(Rng& rng, double scale, double height) {
   return m;
 }
 
-// Splits each triangle into four. The new vertices stay in place, so that the four are coplanar, or are
-// projected to the sphere.
-TriangleMesh divided(const TriangleMesh& m, bool round) {
-  TriangleMesh r{m.vertices, {}};
-  std::map<std::pair<int, int>, int> middles;
-  const auto middle = [&](int a, int b) {
-    const auto [it, is_new] = middles.try_emplace(std::minmax(a, b), static_cast<int>(r.vertices.size()));
-    const Vec3 p = (m.vertices[static_cast<std::size_t>(a)] + m.vertices[static_cast<std::size_t>(b)]) / 2;
-    if (is_new) r.vertices.push_back(round ? Vec3(p.normalized()) : p);
-    return it->second;
-  };
-  for (const auto& [a, b, c] : m.triangles) {
-    const int ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
-    for (const std::array<int, 3>& t :
-         {std::array{a, ab, ca}, std::array{b, bc, ab}, std::array{c, ca, bc}, std::array{ab, bc, ca}})
-      r.triangles.push_back(t);
-  }
-  return r;
-}
-
 // An octahedron with 8, 32 or 128 triangles, flat or rounded, stretched along its axes.
 TriangleMesh closed(Rng& rng, double scale) {
-  TriangleMesh m{{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}},
-                 {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}}};
+  TriangleMesh m = octahedron();
   const auto divisions = rng.below(3);
   const bool round = rng.chance(0.7);
   for (std::uint64_t i = 0; i < divisions; ++i) m = divided(m, round);

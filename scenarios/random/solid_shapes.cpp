@@ -14,37 +14,12 @@ void quad(Triangles& t, int a, int b, int c, int d) {
   t.push_back({a, c, d});
 }
 
-TriangleMesh octahedron() {
-  return {{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}},
-          {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}}};
-}
-
-// Each triangle in four; the new vertices on the sphere.
-TriangleMesh divided(const TriangleMesh& m) {
-  TriangleMesh r{m.vertices, {}};
-  std::map<std::pair<int, int>, int> middles;
-  const auto middle = [&](int a, int b) {
-    const auto [it, is_new] = middles.try_emplace(std::minmax(a, b), static_cast<int>(r.vertices.size()));
-    if (is_new)
-      r.vertices.push_back(
-          (m.vertices[static_cast<std::size_t>(a)] + m.vertices[static_cast<std::size_t>(b)]).normalized());
-    return it->second;
-  };
-  for (const auto& [a, b, c] : m.triangles) {
-    const int ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
-    for (const std::array<int, 3>& t :
-         {std::array{a, ab, ca}, std::array{b, bc, ab}, std::array{c, ca, bc}, std::array{ab, bc, ca}})
-      r.triangles.push_back(t);
-  }
-  return r;
-}
-
 // Seen from the origin, no two triangles cover each other, whatever the radii.
 TriangleMesh ball_or_star(Rng& rng, double least) {
   TriangleMesh m = octahedron();
   const auto size = rng.below(8);  // 8, 32 or, rarely, 128 triangles
-  if (size >= 3) m = divided(m);
-  if (size == 7) m = divided(m);
+  if (size >= 3) m = divided(m, true);
+  if (size == 7) m = divided(m, true);
   for (Vec3& v : m.vertices) v *= rng.uniform(least, 1);
   return m;
 }
@@ -130,6 +105,29 @@ TriangleMesh surface(Rng& rng) {
 }
 
 }  // namespace
+
+TriangleMesh octahedron() {
+  return {{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}},
+          {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}}};
+}
+
+TriangleMesh divided(const TriangleMesh& m, bool round) {
+  TriangleMesh r{m.vertices, {}};
+  std::map<std::pair<int, int>, int> middles;
+  const auto middle = [&](int a, int b) {
+    const auto [it, is_new] = middles.try_emplace(std::minmax(a, b), static_cast<int>(r.vertices.size()));
+    const Vec3 p = (m.vertices[static_cast<std::size_t>(a)] + m.vertices[static_cast<std::size_t>(b)]) / 2;
+    if (is_new) r.vertices.push_back(round ? Vec3(p.normalized()) : p);
+    return it->second;
+  };
+  for (const auto& [a, b, c] : m.triangles) {
+    const int ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
+    for (const std::array<int, 3>& t :
+         {std::array{a, ab, ca}, std::array{b, bc, ab}, std::array{c, ca, bc}, std::array{ab, bc, ca}})
+      r.triangles.push_back(t);
+  }
+  return r;
+}
 
 SolidMesh random_solid(Rng& rng, double scale) {
   TriangleMesh m = surface(rng);

@@ -10,8 +10,10 @@
 #include "scenarios/random/family.h"
 #include "scenarios/random/solid_shapes.h"
 #include "tests/support/catch.h"
+#include "tests/support/l_shape.h"
 
 using namespace touchstone;
+using touchstone::test::l_shape;
 
 namespace {
 
@@ -40,23 +42,6 @@ void add_box(TriangleMesh& m, const Vec3& half, const Vec3& at, bool inward = fa
 TriangleMesh box(const Vec3& half, const Vec3& at = Vec3::Zero()) {
   TriangleMesh m;
   add_box(m, half, at);
-  return m;
-}
-
-// [0,3]×[0,3]×[-1,1] without (1,3]×(1,3]×[-1,1].
-TriangleMesh l_shape() {
-  const double base[][2] = {{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 3}, {0, 3}};
-  TriangleMesh m;
-  for (const double z : {-1.0, 1.0})
-    for (const auto& p : base) m.vertices.push_back({p[0], p[1], z});
-  for (int i = 1; i + 1 < 6; ++i) {
-    m.triangles.push_back({6, 6 + i, 7 + i});
-    m.triangles.push_back({0, i + 1, i});
-  }
-  for (int i = 0; i < 6; ++i) {
-    m.triangles.push_back({i, (i + 1) % 6, 6 + (i + 1) % 6});
-    m.triangles.push_back({i, 6 + (i + 1) % 6, 6 + i});
-  }
   return m;
 }
 

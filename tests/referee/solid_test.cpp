@@ -7,6 +7,7 @@
 #include "scenarios/random/family.h"
 #include "scenarios/random/solid_shapes.h"
 #include "tests/support/catch.h"
+#include "tests/support/l_shape.h"
 
 using namespace touchstone;
 
@@ -49,18 +50,7 @@ TEST_CASE("the kernel of a solid and any of its triangles span a convex part of 
 
 TEST_CASE("the kernel of an L is where its arms meet, and a solid with a cavity has none",
           "[referee][solid]") {
-  const double base[][2] = {{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 3}, {0, 3}};
-  TriangleMesh l;
-  for (const double z : {-1.0, 1.0})
-    for (const auto& p : base) l.vertices.push_back({p[0], p[1], z});
-  for (int i = 1; i + 1 < 6; ++i) {
-    l.triangles.push_back({6, 6 + i, 7 + i});
-    l.triangles.push_back({0, i + 1, i});
-  }
-  for (int i = 0; i < 6; ++i) {
-    l.triangles.push_back({i, (i + 1) % 6, 6 + (i + 1) % 6});
-    l.triangles.push_back({i, 6 + (i + 1) % 6, 6 + i});
-  }
+  const TriangleMesh l = touchstone::test::l_shape();
   REQUIRE_FALSE(flaw_of_solid(l));
   Aabb box;
   for (const Vec3& p : referee::kernel_points(l)) box.extend(p);

@@ -93,12 +93,13 @@ void set_points(Distance<R>& g) {
 
 template <class R>
 Distance<R> gjk(const ConvexCore<R>& a, const ConvexCore<R>& b, R tolerance, R touching, int iterations) {
+  constexpr int most_restarts = 3;
   constexpr int idle = 8;  // near the end the distance stagnates to an ulp while the direction still improves
   const Difference<R> d{a, b};
   const GjkLimits<R> limit{tolerance, std::numeric_limits<R>::infinity(), touching, iterations, idle};
   Distance<R> g = detail::attempt<R>(d, limit, b.frame.translation - a.frame.translation);
   // From the best direction known, the simplex has no points from far away, whose rounding stalled it.
-  for (int again = 0; again < 3 && g.status == GjkStatus::stalled && g.lower > 0; ++again) {
+  for (int again = 0; again < most_restarts && g.status == GjkStatus::stalled && g.lower > 0; ++again) {
     const Distance<R> r = detail::attempt<R>(d, limit, g.normal);
     if (!(r.lower > 0) || !(r.upper - r.lower < g.upper - g.lower)) break;
     g = r;

@@ -118,10 +118,6 @@ bool within_of_half_space(const RationalPlane& h, const ExactBody& body, double 
 bool is_mesh(const Placed& p) { return std::holds_alternative<TriangleMesh>(*p.shape); }
 bool is_half_space(const Placed& p) { return std::holds_alternative<HalfSpace>(*p.shape); }
 
-const Vec3& translation_of(const Placed& p) {
-  return std::visit([](const auto& x) -> const Vec3& { return x.translation; }, p.pose);
-}
-
 Verdict verdict_of(bool within) { return within ? Verdict::overlap : Verdict::disjoint; }
 
 // Whether any two parts are within the margin; a mesh has one for each triangle, other bodies one.

@@ -34,11 +34,6 @@ Matrix3 to_real(const Mat3& m) {
   return r;
 }
 
-const Vec3& translation_of(const Placed& p) {
-  if (const auto* pose = std::get_if<Pose>(&p.pose)) return pose->translation;
-  return std::get<Placement>(p.pose).translation;
-}
-
 // Rodrigues' formula. The angle carries 3 units of relative error (norm, product), hence θ·3 units in the
 // angle; sinl and cosl of glibc are within 1 ulp after exact argument reduction; the axis carries 3 units a
 // component, and enters twice. 16 units + 4θ units cover an entry.
@@ -178,6 +173,16 @@ Triple<T> local_support(const BasicSolid<T>& b, const Triple<T>& m) {
 }
 
 }  // namespace
+
+Vec3 translation_of(const Placed& p) {
+  return std::visit([](const auto& x) -> Vec3 { return x.translation; }, p.pose);
+}
+
+Placed with_translation(const Placed& p, const Vec3& to) {
+  Placed r = p;
+  std::visit([&](auto& pose) { pose.translation = to; }, r.pose);
+  return r;
+}
 
 Frame frame_of(const Placed& p, const Vec3& origin) {
   Frame f;

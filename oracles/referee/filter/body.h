@@ -19,6 +19,10 @@ struct Frame {
   Real matrix_error = 0, translation_error = 0;
 };
 
+Vec3 translation_of(const Placed& p);
+/// The same body, turned as it is, elsewhere.
+Placed with_translation(const Placed& p, const Vec3& to);
+
 /// The exact placement, its translation relative to `origin` (a double vector, exact).
 Frame frame_of(const Placed& p, const Vec3& origin);
 /// The same at time t of a constant motion; t is exact.

@@ -153,7 +153,7 @@ NearMinimalNormals all_of(const Placed& a, const Placed& b) {
     r.certified = t.verdict == Verdict::disjoint;
     return r;
   }
-  const Vec3 origin = std::visit([](const auto& p) -> Vec3 { return p.translation; }, a.pose);
+  const Vec3 origin = translation_of(a);
   const Operand x = make_operand(a, origin), y = make_operand(b, origin);
   const Difference d(x.body, y.body);
   const Real3 best = normalized(to_real(t.normal));

@@ -13,11 +13,6 @@
 namespace touchstone::referee {
 namespace {
 
-const Vec3& translation_of(const Placed& p) {
-  if (const auto* pose = std::get_if<Pose>(&p.pose)) return pose->translation;
-  return std::get<Placement>(p.pose).translation;
-}
-
 template <class S>
 bool is(const Placed& p) {
   return std::holds_alternative<S>(*p.shape);
@@ -208,16 +203,6 @@ PairTruth judge(const Placed& a, const Placed& b, std::span<const Vec3> hint_dir
   return r;
 }
 
-Certificate point_of(const Rational3& p) {
-  Certificate c;
-  c.kind = Certificate::Kind::common_point;
-  for (int k = 0; k < 3; ++k) {
-    c.rationals.push_back(text_of(p[k]));
-    c.point[k] = p[k].convert_to<double>();
-  }
-  return c;
-}
-
 // Where surfaces do not meet, one body may be inside the other. A surface that is no solid's has no depth.
 PairTruth judge_solids(const Placed& a, const Placed& b, std::span<const Vec3> hint_directions,
                        std::span<const Vec3> hint_points) {
@@ -232,7 +217,7 @@ PairTruth judge_solids(const Placed& a, const Placed& b, std::span<const Vec3> h
     if (const auto p = point_inside(x, y)) {
       r.verdict = Verdict::overlap;
       r.gap = {-infinity, 0};
-      r.verdict_certificate = point_of(*p);
+      r.verdict_certificate = common_point_certificate(*p);
       r.witness.fill(r.verdict_certificate.point);
     }
   if (r.verdict != Verdict::overlap || is<TriangleMesh>(x) || is<TriangleMesh>(y)) return r;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "oracles/checker/checker.h"
+#include "oracles/referee/certificate.h"
 #include "oracles/referee/counters.h"
 #include "oracles/referee/exact/exact_pair.h"
 #include "oracles/referee/exact/exact_point.h"
@@ -148,16 +149,6 @@ Wide3 common_point(const WideDifference& d, const BasicSimplex<Wide>& s) {
   return a + share * (b - a);
 }
 
-Certificate point_at(const Rational3& x) {
-  Certificate c;
-  c.kind = Certificate::Kind::common_point;
-  for (int i = 0; i < 3; ++i) {
-    c.rationals.push_back(text_of(x[i]));
-    c.point[i] = x[i].convert_to<double>();
-  }
-  return c;
-}
-
 Rational simplest_near(const Rational& x, const Rational& e) { return simplest_between(x - e, x + e); }
 
 Rational3 simplest_near(const Rational3& x, const Rational& e) {
@@ -211,7 +202,8 @@ std::optional<Rational3> with_simple_weights(const std::map<int, Wide>& weights,
 // outside; a step of 1e-36 towards that body's middle keeps it inside.
 Certificate inside_both(const WideDifference& d, const Wide3& point, Holder& a, Holder& b) {
   for (const Wide3& to : {point, middle(d.a), middle(d.b)})
-    if (Certificate c = point_at(exact_of(point + ldexp(Wide(1), inward_bits) * (to - point)));
+    if (Certificate c =
+            common_point_certificate(exact_of(point + ldexp(Wide(1), inward_bits) * (to - point)));
         is_common_point(c, a, b))
       return c;
   return {};
@@ -229,7 +221,7 @@ Certificate simple_point(const std::vector<Meeting>& found, const WidePart& x, c
         if (const auto p = with_simple_weights(m.weights[i], i == 0 ? x : y, exact_of(ldexp(Wide(1), bits))))
           guesses.push_back(*p);
       for (const Rational3& guess : guesses)
-        if (Certificate c = point_at(guess); is_common_point(c, a, b)) return c;
+        if (Certificate c = common_point_certificate(guess); is_common_point(c, a, b)) return c;
     }
   return {};
 }

@@ -28,10 +28,6 @@ struct Scene2 {
   bool accepts(const ImpactCertificate& c) const { return checker::check(c, a, motion_a, b, motion_b); }
 };
 
-Vec3 translation_of(const Placed& p) {
-  return std::visit([](const auto& x) -> Vec3 { return x.translation; }, p.pose);
-}
-
 MovingParts parts(const Placed& p, const Motion& m, const Vec3& minus, const Vec3& origin) {
   MovingParts r;
   const auto* mesh = std::get_if<TriangleMesh>(p.shape);

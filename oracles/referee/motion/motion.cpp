@@ -280,11 +280,6 @@ bool is(const Placed& p) {
   return std::holds_alternative<S>(*p.shape);
 }
 
-const Vec3& translation_of(const Placed& p) {
-  if (const auto* pose = std::get_if<Pose>(&p.pose)) return pose->translation;
-  return std::get<Placement>(p.pose).translation;
-}
-
 TimeTruth join(const TimeTruth& x, const TimeTruth& y) {
   using V = TimeTruth::Verdict;
   TimeTruth r = x;

@@ -17,10 +17,6 @@ bool is(const Placed& p) {
   return std::holds_alternative<S>(*p.shape);
 }
 
-Vec3 translation_of(const Placed& p) {
-  return std::visit([](const auto& x) -> Vec3 { return x.translation; }, p.pose);
-}
-
 std::vector<Mover> movers(const Placed& p, const Motion& m, const Vec3& minus) {
   const auto* mesh = std::get_if<TriangleMesh>(p.shape);
   std::vector<Mover> r;

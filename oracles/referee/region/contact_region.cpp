@@ -190,10 +190,6 @@ ContactRegion region_of(const Convex2& p, const ProjectionPlane& plane, Real hei
   return r;
 }
 
-Vec3 translation_of(const Placed& p) {
-  return std::visit([](const auto& x) -> Vec3 { return x.translation; }, p.pose);
-}
-
 // Against a half-space the contact plane is its boundary, and the region is the feature of the other body.
 ContactRegion region_on_half_space(const Placed& other, const Vec3& out_of_other, bool other_is_a,
                                    const Vec3& normal, const Placed& half_space, double slack) {

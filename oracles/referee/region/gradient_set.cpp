@@ -4,13 +4,14 @@
 // change of the gap between the planes over the region's points. That is reached at its corners.
 #include "oracles/referee/region/gradient_set.h"
 
+#include "oracles/referee/filter/body.h"
 #include "oracles/referee/region/contact_region.h"
 
 namespace touchstone::referee {
 
 GradientSet gradient_set(const Placed& a, const Placed& b, std::span<const Vec3> normals, bool complete,
                          double l) {
-  const Vec3 origin = std::visit([](const auto& p) -> Vec3 { return p.translation; }, b.pose);
+  const Vec3 origin = translation_of(b);
   GradientSet r;
   bool points = true;
   for (const Vec3& n : normals) {

@@ -28,15 +28,6 @@ constexpr int most_pieces = 24;
 // roundings. A bracket four times as wide is as narrow as it gets.
 constexpr double beyond_touching = 0x1p-50, narrow_enough = 0x1p-48;
 
-Vec3 translation_of(const Placed& p) {
-  return std::visit([](const auto& x) -> Vec3 { return x.translation; }, p.pose);
-}
-Placed with_translation(const Placed& p, const Vec3& to) {
-  Placed r = p;
-  std::visit([&](auto& pose) { pose.translation = to; }, r.pose);
-  return r;
-}
-
 // A place of B, and how far it is from where it was: an upper and a lower bound.
 struct Place {
   Placed b;
