@@ -53,6 +53,13 @@ class Rng {
     const int e = lo + static_cast<int>(below(static_cast<std::uint64_t>(hi - lo + 1)));
     return std::ldexp(1.0 + uniform(), e);
   }
+  /// 1 or -1, equally likely.
+  int sign() { return chance(0.5) ? 1 : -1; }
+  /// A binary_scale of either sign.
+  double signed_binary_scale(int lo, int hi) {
+    const double size = binary_scale(lo, hi);
+    return size * sign();
+  }
   /// Uniform on the unit sphere, by rejection.
   Vec3 unit_vector() {
     for (;;) {

@@ -81,7 +81,8 @@ void Pool::note(const Case& c, std::span<const std::uint64_t> shown) {
 Case Pool::draw(Rng& rng) const {
   for (int tries = 0; tries < 4; ++tries) {
     // The later of two draws: older cases have been tried more often.
-    Case c = cases[std::max(rng.below(published), rng.below(published))];
+    const auto one = rng.below(published), other = rng.below(published);
+    Case c = cases[std::max(one, other)];
     bool valid = true;
     for (std::uint64_t n = 1 + rng.below(4); n > 0 && valid; --n) valid = apply(random_change(rng), c);
     if (valid) return c;

@@ -18,10 +18,11 @@ struct GapRange {
   double (*gap)(Rng&);  // relative to the size of the pair
 };
 constexpr GapRange gap_ranges[] = {
-    {"apart", [](Rng& r) { return r.uniform(0.1, 1); }},
-    {"near", [](Rng& r) { return r.chance(0.5) ? r.binary_scale(-30, -10) : -r.binary_scale(-30, -10); }},
-    {"shallow", [](Rng& r) { return -r.uniform(0.001, 0.1); }},
-    {"deep", [](Rng& r) { return -r.uniform(0.1, 1); }},
+    {"apart", [](Rng& rng) { return rng.uniform(0.1, 1); }},
+    {"near",
+     [](Rng& rng) { return rng.chance(0.5) ? rng.binary_scale(-30, -10) : -rng.binary_scale(-30, -10); }},
+    {"shallow", [](Rng& rng) { return -rng.uniform(0.001, 0.1); }},
+    {"deep", [](Rng& rng) { return -rng.uniform(0.1, 1); }},
 };
 
 struct Scale {

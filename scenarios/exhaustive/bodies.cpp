@@ -98,7 +98,7 @@ void drift_case(const Draw& d, Rng& rng, const Vec3& start, const Vec3& travel, 
 void drifting_on_an_axis(const Draw& d, std::uint64_t index, Case& out) {
   Rng rng = Rng::stream(d.seed + 13, index);
   const int axis = static_cast<int>(index % 3);
-  const double length = rng.uniform(1, 8), sign = rng.chance(0.5) ? 1 : -1;
+  const double length = rng.uniform(1, 8), sign = rng.sign();
   const Vec3 start = rng.vector(0, 2);
   drift_case(d, rng, start, Vec3::Unit(axis) * (sign * length), out);
 }

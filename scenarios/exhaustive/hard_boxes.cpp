@@ -27,13 +27,15 @@ double on_a_border(Rng& rng, const Draw& d) {
 }
 
 double beside_a_number(Rng& rng, const Draw& d) {
-  const double x = nearest(whole(rng, 3) + (rng.chance(0.5) ? 0.1 : 0.5), d.scalar);
+  const double n = whole(rng, 3);
+  const double x = nearest(n + (rng.chance(0.5) ? 0.1 : 0.5), d.scalar);
   return stepped(x, static_cast<int>(rng.below(9)) - 4, d.scalar);
 }
 
 double of_any_size(Rng& rng, const Draw&) {
-  return (rng.chance(0.5) ? 1 : -1) *
-         std::ldexp(1.0 + static_cast<double>(rng.below(8)) / 8, static_cast<int>(rng.below(21)) - 10);
+  const int sign = rng.sign();
+  const int e = static_cast<int>(rng.below(21)) - 10;
+  return sign * std::ldexp(1.0 + static_cast<double>(rng.below(8)) / 8, e);
 }
 
 double near_zero(Rng& rng, const Draw& d) {
@@ -49,12 +51,14 @@ double near_zero(Rng& rng, const Draw& d) {
 double far_away(Rng& rng, const Draw& d) {
   const int e = d.scalar == Scalar::float64 ? 20 + static_cast<int>(rng.below(25))
                                             : 8 + static_cast<int>(rng.below(10));
-  return (rng.chance(0.5) ? 1 : -1) * std::ldexp(1.0, e) + whole(rng, 4) / 2;
+  const int sign = rng.sign();
+  return sign * std::ldexp(1.0, e) + whole(rng, 4) / 2;
 }
 
 double huge(Rng& rng, const Draw& d) {
   const int e = d.scalar == Scalar::float64 ? 980 : 100;
-  return whole(rng, 7) * std::ldexp(1.0, e + static_cast<int>(rng.below(3)));
+  const double n = whole(rng, 7);
+  return n * std::ldexp(1.0, e + static_cast<int>(rng.below(3)));
 }
 
 // Ends are drawn with repetition from a few values, so that ties are frequent.
@@ -132,7 +136,7 @@ void unbounded(const Draw& d, std::uint64_t index, Case& out) {
     b.shape = static_cast<int>(out.scene.shapes.size());
     b.is_static = true;
     const auto axis = static_cast<Eigen::Index>(rng.below(3));
-    const double sign = rng.chance(0.5) ? 1 : -1;
+    const double sign = rng.sign();
     out.scene.shapes.push_back(HalfSpace{Vec3::Unit(axis) * sign, 0});
     b.pose.translation = Vec3::Constant(on_a_border(rng, d));
     out.scene.bodies.push_back(std::move(b));

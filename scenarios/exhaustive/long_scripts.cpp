@@ -27,7 +27,8 @@ struct Script {
     for (std::uint64_t i = 0; i < n; ++i) {
       Vec3 h;
       for (double& x : h) x = static_cast<double>(rng.below(rng.chance(0.1) ? 40 : 9)) / 8;
-      add_box(s, {lattice_point(rng, world, 0.125), h}, rng.chance(0.2));
+      const bool fixed = rng.chance(0.2);
+      add_box(s, {lattice_point(rng, world, 0.125), h}, fixed);
     }
     at.resize(s.bodies.size());
   }

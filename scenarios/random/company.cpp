@@ -22,7 +22,8 @@ int add_body(Rng& rng, Scene& s, int shape, double side) {
 Scene few_shapes(Rng& rng, std::size_t bodies, std::size_t shapes) {
   Scene s;
   for (std::size_t i = 0; i < shapes; ++i) {
-    s.shapes.push_back(random_shape(rng, random_convex_kind(rng), rng.uniform(0.5, 1.2)));
+    const double scale = rng.uniform(0.5, 1.2);
+    s.shapes.push_back(random_shape(rng, random_convex_kind(rng), scale));
     if (rng.below(8) == 0) flatten(rng, s.shapes.back());
   }
   const double side = 0.8 * std::cbrt(static_cast<double>(bodies));
@@ -86,7 +87,8 @@ void dialogue(Rng& rng, Case& c) {
 // within one case, those of sixteen bits within some 150.
 void endless_dialogue(Rng& rng, Case& c) {
   constexpr std::uint64_t fewest = 300, spread = 400;
-  c.scene = few_shapes(rng, 2 + rng.below(4), 1 + rng.below(3));
+  const auto shapes = 1 + rng.below(3);
+  c.scene = few_shapes(rng, 2 + rng.below(4), shapes);
   const auto n = c.scene.bodies.size();
   for (auto k = fewest + rng.below(spread); k > 0; --k) {
     const auto a = rng.below(n), b = (a + 1 + rng.below(n - 1)) % n;

@@ -36,7 +36,8 @@ void graze(Rng& rng, Case& c) {
   Scene s = random_pair(rng, a, b, 1, Vec3::Zero());
   const Vec3 n = rng.unit_vector();
   const double size = mean_extent(s);
-  const double gap = (rng.chance(0.4) ? 1 : -1) * rng.binary_scale(-26, -7) * size;
+  const int sign = rng.chance(0.4) ? 1 : -1;
+  const double gap = sign * rng.binary_scale(-26, -7) * size;
   const Vec3 at_contact = farthest_point(s, 0, n) - farthest_point(s, 1, -n) + n * gap;
   const Vec3 u = rng.unit_vector();
   const Vec3 along = (u - u.dot(n) * n) * (rng.uniform(1, 8) * size);
@@ -55,7 +56,8 @@ void bullet(Rng& rng, Case& c) {
   s.shapes[1] = random_shape(rng, kind_of(s.shapes[1]), 0.05);
   const Mat3 r = rotation_matrix(s.bodies[0].pose.rotation);
   const Vec3 hit{rng.uniform(-1.2, 1.2) * wide, rng.uniform(-1.2, 1.2) * wide, 0};
-  const Vec3 way = rng.unit_vector() + Vec3(0, 0, rng.chance(0.5) ? 1.5 : -1.5);
+  const double through = rng.chance(0.5) ? 1.5 : -1.5;
+  const Vec3 way = rng.unit_vector() + Vec3(0, 0, through);
   const Vec3 linear = r * way * (rng.uniform(2, 30) * wide);
   s.bodies[1].pose.translation = r * hit - linear * rng.uniform(0.05, 0.95);
   Motion m{linear, Vec3::Zero()};

@@ -57,7 +57,8 @@ TriangleMesh closed(Rng& rng, double scale) {
 }
 
 void ask_impact(Rng& rng, Case& c, const Vec3& n) {
-  Motion m{rng.vector(0, 1) - n * rng.uniform(0.2, 3), Vec3::Zero()};
+  const double approach = rng.uniform(0.2, 3);
+  Motion m{rng.vector(0, 1) - n * approach, Vec3::Zero()};
   if (rng.chance(0.4)) m.angular = rng.vector(0.1, 2);
   c.scene.bodies[1].motion = m;
   c.queries = {{Question::time_of_impact, 0, 1}};
@@ -93,7 +94,7 @@ Spot spot_on(Rng& rng, const Scene& s, int body) {
   const Vec3 n = along.cross(across);
   const Pose& pose = s.bodies[static_cast<std::size_t>(body)].pose;
   const Mat3 r = rotation_matrix(pose.rotation);
-  const double side = rng.chance(0.5) ? 1 : -1;
+  const double side = rng.sign();
   const Vec3 normal = n.norm() > 0 ? Vec3(n.normalized() * side) : rng.unit_vector();
   return {r * (corner(0) + u * along + v * across) + pose.translation, r * normal};
 }

@@ -43,7 +43,7 @@ double random_gap(Rng& rng) {
     case 0:
       return rng.uniform(0.001, 1);
     case 1:
-      return rng.binary_scale(-40, -7) * (rng.chance(0.5) ? 1 : -1);
+      return rng.signed_binary_scale(-40, -7);
     case 2:
       return -rng.uniform(0.001, 0.1);
     default:

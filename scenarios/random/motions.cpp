@@ -197,7 +197,7 @@ void hinge(Rng& rng, int frames, Case& c) {
   add_body(s, Box{{wide, thin, tall}}, rng.chance(0.5));
   add_body(s, Box{{wide * rng.uniform(0.6, 1), thin, tall * rng.uniform(0.6, 1)}}, false);
   const double half = std::get<Box>(s.shapes[1]).half_extents.x(), joint = rng.binary_scale(-8, -4);
-  const double from = rng.uniform(-0.5, 0.5), by = (rng.chance(0.5) ? 1 : -1) * rng.uniform(0.5, 2.2);
+  const double from = rng.uniform(-0.5, 0.5), sign = rng.sign(), by = sign * rng.uniform(0.5, 2.2);
   write_script(s, random_world(rng), frames, [=](double t) {
     const Quat q = turn(Vec3::UnitZ(), from + by * t);
     const Vec3 arm = rotation_matrix(q) * Vec3(half - joint, 0, 0);

@@ -17,7 +17,8 @@ void ask_pair(Case& c, Scene s) {
 // Body 1 flies towards body 0 from its position.
 void ask_impact(Rng& rng, Case& c, Scene s) {
   const Vec3 to = s.bodies[0].pose.translation - s.bodies[1].pose.translation;
-  Motion m{(to + rng.vector(0, 0.3)) * rng.uniform(0.5, 2), Vec3::Zero()};
+  const double steps = rng.uniform(0.5, 2);
+  Motion m{(to + rng.vector(0, 0.3)) * steps, Vec3::Zero()};
   if (rng.chance(0.3)) m.angular = rng.vector(0.1, 2);
   s.bodies[1].motion = m;
   c.scene = std::move(s);
@@ -71,7 +72,7 @@ Shape prism(Rng& rng) {
 double any_gap(Rng& rng, double size) {
   const auto style = rng.below(8);
   if (style == 0) return 0;
-  if (style < 3) return rng.binary_scale(-40, -7) * (rng.chance(0.5) ? size : -size);
+  if (style < 3) return rng.signed_binary_scale(-40, -7) * size;
   return rng.uniform(-0.5, 0.5) * size;
 }
 
@@ -145,7 +146,8 @@ void nearly_parallel(Rng& rng, Case& c) {
   constexpr double least_across = 0.1;  // of the unit axes; a shorter sum has a coarse direction
   const Vec3 n =
       rng.chance(0.6) && across.norm() > least_across ? Vec3(across.normalized()) : Vec3(axes.col(k));
-  place_along(rng, s, n, any_gap(rng, mean_extent(s)), rng.uniform(0, 0.4));
+  const double aside = rng.uniform(0, 0.4);
+  place_along(rng, s, n, any_gap(rng, mean_extent(s)), aside);
   ask_pair(c, std::move(s));
 }
 

@@ -26,7 +26,7 @@ double some_gap(Rng& rng, double size) {
     case 0:
       return rng.uniform(0.001, 0.5) * size;
     case 1:
-      return rng.binary_scale(-40, -7) * size * (rng.chance(0.5) ? 1 : -1);
+      return rng.signed_binary_scale(-40, -7) * size;
     case 2:
       return 0;
     default:
@@ -67,7 +67,8 @@ Vec3 at_solid(Rng& rng, Scene& s) {
 }
 
 void set_in_motion(Rng& rng, Case& c, const Vec3& n) {
-  Motion m{rng.vector(0, 1) - n * rng.uniform(-0.5, 3), Vec3::Zero()};
+  const double approach = rng.uniform(-0.5, 3);
+  Motion m{rng.vector(0, 1) - n * approach, Vec3::Zero()};
   if (rng.chance(0.4)) m.angular = rng.vector(0.1, 2);
   c.scene.bodies[1].motion = m;
   c.queries = {{Question::time_of_impact, 0, 1}};

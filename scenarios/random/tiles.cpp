@@ -46,7 +46,7 @@ double moved_by_ulps(double x, std::int64_t ulps) {
 // their boxes do.
 Vec3 beside(Rng& rng, const Scene& s, std::size_t i, std::size_t j, const Vec3& at, bool lattice) {
   const auto axis = static_cast<Eigen::Index>(rng.below(3));
-  const double sign = rng.chance(0.5) ? 1 : -1;
+  const double sign = rng.sign();
   const Vec3 n = Vec3::Unit(axis) * sign;
   const bool points_meet = !lattice && rng.chance(0.5);
   const Vec3 meet = farthest_point(s, static_cast<int>(j), n) - farthest_point(s, static_cast<int>(i), -n);
@@ -124,7 +124,7 @@ Pose next_pose(Rng& rng, const Scene& s, const std::vector<std::optional<Pose>>&
   const auto axis = static_cast<Eigen::Index>(rng.below(3));
   const auto way = rng.below(8);
   if (way == 0) {
-    pose.translation[axis] = moved_by_ulps(pose.translation[axis], rng.chance(0.5) ? 1 : -1);
+    pose.translation[axis] = moved_by_ulps(pose.translation[axis], rng.sign());
     return pose;
   }
   if (way == 1) {
@@ -132,7 +132,8 @@ Pose next_pose(Rng& rng, const Scene& s, const std::vector<std::optional<Pose>>&
     return pose;
   }
   if (way == 2) {
-    pose.translation += rng.unit_vector() * rng.binary_scale(-12, -2);
+    const double by = rng.binary_scale(-12, -2);
+    pose.translation += rng.unit_vector() * by;
     return pose;
   }
   if (way == 3) {

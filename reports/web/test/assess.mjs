@@ -1,6 +1,6 @@
 // The page of `assess` in a real browser: node assess.mjs CHROMIUM DIR [SCREENSHOTS], where DIR holds assess.html (with wrong
 // answers) and clean.html (without). Prints one line a check; exit code 1 when one fails.
-import { check, data, end, open, shoot, wide } from "./browser.mjs";
+import { address, check, data, end, open, shoot, wide } from "./browser.mjs";
 
 const picture = (page) => page.evaluate(() => document.querySelector("#view canvas").toDataURL());
 
@@ -34,9 +34,8 @@ check("what every engine says of the pair is shown", says.length === rows.length
 const some = d.pairs.flatMap((x) => x.of.map((o) => o.engine))[0];
 await page.click(`#engines tr[data-engine="${some}"] button`);
 check("an engine's pairs alone are listed", (await page.$$("#pairs tr[data-pair]")).length === d.pairs.filter((x) => x.of.some((o) => o.engine === some)).length);
-await page.waitForTimeout(300);
-const address = await page.evaluate(() => location.hash);
-check("the address keeps what is shown", address.includes(`engine=${encodeURIComponent(some)}`) && address.includes("pair="), address);
+const hash = await address(page);
+check("the address keeps what is shown", hash.includes(`engine=${encodeURIComponent(some)}`) && hash.includes("pair="), hash);
 await page.close();
 
 await end();

@@ -34,6 +34,15 @@ export const shoot = (page, name, more = {}) => (pictures ? page.screenshot({ pa
 export const data = (page) => page.evaluate(() => globalThis.touchstoneData);
 export const wide = (page) => page.evaluate(() => document.documentElement.scrollWidth <= innerWidth + 1);
 
+const twoFrames = (page) => page.evaluate(() => new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn))));
+
+/** The address after '#', once the page has written there what it shows. */
+export async function address(page) {
+  await twoFrames(page);
+  await page.waitForFunction(() => !("linkPending" in document.documentElement.dataset));
+  return page.evaluate(() => location.hash);
+}
+
 /** What axe-core finds against WCAG 2.1, levels A and AA: rule, place and reason, in one line. A page that may still be
  * drawing is asked again; what stays is a barrier. */
 export async function barriers(page) {
@@ -42,7 +51,7 @@ export async function barriers(page) {
     const found = await page.evaluate(() => globalThis.axe.run(document, { runOnly: ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa"] }));
     if (found.violations.length === 0 || asked === 20)
       return found.violations.map((v) => `${v.id} at ${v.nodes.map((n) => n.target.join(" ")).join(", ")}: ${v.help}`).join("; ");
-    await page.evaluate(() => new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn))));
+    await twoFrames(page);
     await page.waitForTimeout(250);
   }
 }

@@ -2,7 +2,7 @@
 // cause once), causes-many.html (60 causes) and causes-hostile.html (markup in every text).
 import { statSync } from "node:fs";
 import { join } from "node:path";
-import { check, data, dir, end, open, shoot, wide } from "./browser.mjs";
+import { address, check, data, dir, end, open, shoot, wide } from "./browser.mjs";
 
 for (const name of ["causes.html", "causes-many.html", "causes-hostile.html"])
   for (const size of [{ width: 1280, height: 800 }, { width: 390, height: 844, dark: true }]) {
@@ -103,8 +103,7 @@ const kindsIn = (page) =>
   await page.keyboard.press("n");
   const focused = () => page.evaluate(() => document.activeElement.dataset.cause);
   check("the key n goes to the next cause that is shown", (await focused()) === both[1].id, await focused());
-  await page.waitForTimeout(300);
-  const hash = await page.evaluate(() => location.hash);
+  const hash = await address(page);
   await page.close();
   const again = await open("causes-many.html", { hash });
   check("the link has the filters and the cause", (await again.page.textContent("#found")).startsWith(`${both.length} of `) && (await again.page.evaluate(() => document.activeElement.dataset.cause)) === both[1].id, hash);

@@ -5,7 +5,7 @@
 // broad.html, broad.json: a script's broad phases as a page and as `--json`. Prints one line a check; exit code 1 when one fails.
 import { readFileSync, statSync } from "node:fs";
 import { join } from "node:path";
-import { barriers, check, data, dir, end, open, shoot, wide } from "./browser.mjs";
+import { address, barriers, check, data, dir, end, open, shoot, wide } from "./browser.mjs";
 
 // Different colours in the middle of the canvas: a picture, not a background.
 const colours = (page) =>
@@ -114,8 +114,7 @@ for (const name of ["case.html", "crowd.html", "motion.html", "report.html", "ma
   await page.mouse.up();
   check("the mouse turns the picture", (await picture(page)) !== turned);
   await page.keyboard.press("n");
-  await page.waitForTimeout(300);
-  const hash = await page.evaluate(() => location.hash);
+  const hash = await address(page);
   const was = await picture(page);
   check("the link names camera and engine", /camera=/.test(hash) && /engine=/.test(hash), hash);
   await page.close();
@@ -142,8 +141,7 @@ for (const name of ["case.html", "crowd.html", "motion.html", "report.html", "ma
   check("normals can be left out", fewer !== all);
   await page.keyboard.press("5");
   check("the certificate can be left out by its key", (await picture(page)) !== fewer && (await page.evaluate(() => document.body.dataset.drawn)) === "");
-  await page.waitForTimeout(250);
-  const hash = await page.evaluate(() => location.hash);
+  const hash = await address(page);
   const left = await picture(page);
   await page.close();
   const again = await open("case.html", { hash });
@@ -183,8 +181,8 @@ for (const [name, question, drawn, words] of [
   for (let i = 0; i < 60; ++i) await page.keyboard.press("ArrowRight");
   check("the slider moves the time", (await page.inputValue("#time")) > 0.21);
   check("the slider moves the bodies", (await picture(page)) !== before);
-  await page.waitForTimeout(250);
-  check("the time is in the link", /t=0\.2[23]/.test(await page.evaluate(() => location.hash)), await page.evaluate(() => location.hash));
+  const hash = await address(page);
+  check("the time is in the link", /t=0\.2[23]/.test(hash), hash);
   await page.close();
 }
 
@@ -220,7 +218,7 @@ for (const [name, question, drawn, words] of [
   check("only the lines in sight are in the document", (await rows()) > 5 && (await rows()) < 120, String(await rows()));
   await page.focus("#findings");
   await page.keyboard.press("End");
-  await page.waitForTimeout(100);
+  await page.waitForFunction((count) => Number([...document.querySelectorAll("#findings tbody tr:not(.gap)")].at(-1)?.getAttribute("aria-rowindex")) === count, f.count).catch(() => {});
   const last = await page.$$eval("#findings tbody tr:not(.gap)", (r) => Number(r.at(-1).getAttribute("aria-rowindex")));
   check("the End key reaches the last of them", last === f.count, String(last));
   await page.keyboard.press("Enter");
@@ -274,8 +272,8 @@ for (const [name, question, drawn, words] of [
   const table = await page.$$eval("#rows tr[data-engine]", (r) => r.map((x) => x.dataset.engine));
   check("the table has the same engines", table.length === rows.length);
   await page.selectOption("#question", "overlap");
-  await page.waitForTimeout(250);
-  check("the choice is in the link", /question=overlap/.test(await page.evaluate(() => location.hash)));
+  const hash = await address(page);
+  check("the choice is in the link", /question=overlap/.test(hash), hash);
   await page.close();
 }
 

@@ -49,7 +49,11 @@ export class LinkState {
     else this.values.set(key, value);
     clearTimeout(this.timer);
     // Browsers limit address changes to about a hundred in half a minute.
-    this.timer = window.setTimeout(() => history.replaceState(null, "", "#" + this.values.toString()), 150);
+    this.timer = window.setTimeout(() => {
+      history.replaceState(null, "", "#" + this.values.toString());
+      delete document.documentElement.dataset["linkPending"];
+    }, 150);
+    document.documentElement.dataset["linkPending"] = "";
   }
   /** Calls `f` when the user edits the address or follows a link within the page. */
   onChange(f: () => void): void {
