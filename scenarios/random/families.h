@@ -37,6 +37,10 @@ void flatten(Rng& rng, Shape& shape);
 /// size.
 double any_gap(Rng& rng, double size);
 
+/// Asks for the time of impact of body 1, which flies against n at `least` to 3 lengths a step, aside by up
+/// to one, and in four of ten cases turns.
+void ask_impact_against(Rng& rng, Case& c, const Vec3& n, double least);
+
 /// Swaps bodies 0 and 1.
 void exchange_bodies(Scene& pair);
 

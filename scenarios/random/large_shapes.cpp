@@ -56,14 +56,6 @@ TriangleMesh closed(Rng& rng, double scale) {
   return m;
 }
 
-void ask_impact(Rng& rng, Case& c, const Vec3& n) {
-  const double approach = rng.uniform(0.2, 3);
-  Motion m{rng.vector(0, 1) - n * approach, Vec3::Zero()};
-  if (rng.chance(0.4)) m.angular = rng.vector(0.1, 2);
-  c.scene.bodies[1].motion = m;
-  c.queries = {{Question::time_of_impact, 0, 1}};
-}
-
 Shape hull_of_many(Rng& rng) {
   const auto n = rng.chance(0.4) ? 256 + rng.below(45) : 64 + rng.below(192);
   const Vec3 axes{rng.uniform(0.3, 1.2), rng.uniform(0.3, 1.2), rng.uniform(0.3, 1.2)};
@@ -77,6 +69,14 @@ void ask_pair(Case& c) {
 }
 
 }  // namespace
+
+void ask_impact_against(Rng& rng, Case& c, const Vec3& n, double least) {
+  const double approach = rng.uniform(least, 3);
+  Motion m{rng.vector(0, 1) - n * approach, Vec3::Zero()};
+  if (rng.chance(0.4)) m.angular = rng.vector(0.1, 2);
+  c.scene.bodies[1].motion = m;
+  c.queries = {{Question::time_of_impact, 0, 1}};
+}
 
 Spot spot_on(Rng& rng, const Scene& s, int body) {
   const TriangleMesh& m = *triangles_if(s.shape_of(body));
@@ -123,7 +123,7 @@ void meshes(Rng& rng, Case& c) {
   if (rng.below(6) == 0) s.bodies[1].pose.translation = rng.vector(0, 0.1);
   const bool moves = rng.below(6) == 0;
   c.scene = std::move(s);
-  if (moves) return ask_impact(rng, c, at.normal);
+  if (moves) return ask_impact_against(rng, c, at.normal, 0.2);
   ask_pair(c);
   if (rng.below(4) == 0) exchange_bodies(c.scene);
 }
@@ -136,7 +136,7 @@ void many_vertices(Rng& rng, Case& c) {
   place_along(rng, s, n, any_gap(rng, mean_extent(s)), 0.3);
   const bool moves = rng.below(8) == 0;
   c.scene = std::move(s);
-  if (moves) return ask_impact(rng, c, n);
+  if (moves) return ask_impact_against(rng, c, n, 0.2);
   ask_pair(c);
   if (rng.chance(0.5)) exchange_bodies(c.scene);
 }

@@ -66,14 +66,6 @@ Vec3 at_solid(Rng& rng, Scene& s) {
   return at.normal;
 }
 
-void set_in_motion(Rng& rng, Case& c, const Vec3& n) {
-  const double approach = rng.uniform(-0.5, 3);
-  Motion m{rng.vector(0, 1) - n * approach, Vec3::Zero()};
-  if (rng.chance(0.4)) m.angular = rng.vector(0.1, 2);
-  c.scene.bodies[1].motion = m;
-  c.queries = {{Question::time_of_impact, 0, 1}};
-}
-
 }  // namespace
 
 void solids(Rng& rng, Case& c) {
@@ -88,7 +80,7 @@ void solids(Rng& rng, Case& c) {
     n = at_solid(rng, s);
   const bool moves = is_convex(other) && rng.below(6) == 0;
   c.scene = std::move(s);
-  if (moves) return set_in_motion(rng, c, n);
+  if (moves) return ask_impact_against(rng, c, n, -0.5);
   c.queries = {{Question::overlap, 0, 1}, {Question::distance, 0, 1}, {Question::contact, 0, 1}};
   if (rng.below(8) == 0) c.queries = {{Question::candidates, -1, -1}, {Question::scene_contacts, -1, -1}};
   if (rng.below(4) == 0) exchange_bodies(c.scene);

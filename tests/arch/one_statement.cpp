@@ -1,7 +1,6 @@
 // One statement a line: no comma operator in an expression statement or a return. A declaration may declare
 // several names, and the head of a loop may advance several.
 #include <algorithm>
-#include <cctype>
 #include <regex>
 #include <string>
 #include <string_view>
@@ -13,13 +12,11 @@
 namespace touchstone::arch {
 namespace {
 
-bool is_name(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
-
 /// A comma outside all brackets. The bracket of template arguments follows a name without a space.
 bool has_bare_comma(std::string_view s) {
   int depth = 0;
   for (std::size_t i = 0; i < s.size(); ++i) {
-    const bool opens_template = s[i] == '<' && i > 0 && is_name(s[i - 1]);
+    const bool opens_template = s[i] == '<' && i > 0 && is_of_name(s[i - 1]);
     const bool closes_template = s[i] == '>' && i > 0 && s[i - 1] != ' ' && s[i - 1] != '-';
     if (s[i] == '(' || s[i] == '[' || opens_template) ++depth;
     if (s[i] == ')' || s[i] == ']' || closes_template) --depth;

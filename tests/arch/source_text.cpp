@@ -11,8 +11,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool continues_name(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
-
 /// Overwrites what is no code, from the start to the end of a file.
 class Blanking {
  public:
@@ -42,7 +40,7 @@ class Blanking {
 
  private:
   bool starts(std::string_view s) const { return std::string_view(text_).substr(at_).starts_with(s); }
-  bool follows_name() const { return at_ > 0 && continues_name(text_[at_ - 1]); }
+  bool follows_name() const { return at_ > 0 && is_of_name(text_[at_ - 1]); }
   bool begins_line() const {
     const std::size_t last = at_ == 0 ? std::string::npos : text_.find_last_not_of(" \t", at_ - 1);
     return last == std::string::npos || text_[last] == '\n';
@@ -73,6 +71,8 @@ class Blanking {
 };
 
 }  // namespace
+
+bool is_of_name(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
 
 std::size_t SourceFile::line_at(std::size_t place) const {
   return 1 +

@@ -8,6 +8,9 @@
 
 namespace touchstone::arch {
 
+/// A letter, a digit or an underscore.
+bool is_of_name(char c);
+
 struct SourceFile {
   std::string path;  // from the root of the repository
   std::string text;

@@ -218,6 +218,7 @@ for (const [name, question, drawn, words] of [
   check("only the lines in sight are in the document", (await rows()) > 5 && (await rows()) < 120, String(await rows()));
   await page.focus("#findings");
   await page.keyboard.press("End");
+  // Where it is not reached, the check says so.
   await page.waitForFunction((count) => Number([...document.querySelectorAll("#findings tbody tr:not(.gap)")].at(-1)?.getAttribute("aria-rowindex")) === count, f.count).catch(() => {});
   const last = await page.$$eval("#findings tbody tr:not(.gap)", (r) => Number(r.at(-1).getAttribute("aria-rowindex")));
   check("the End key reaches the last of them", last === f.count, String(last));
