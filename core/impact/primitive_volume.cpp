@@ -13,6 +13,7 @@
 // 7u·P of rounding: 20u·Σ|n_c|·P_c. These bounds are relative, hence invalid where products underflow; there,
 // nothing is claimed.
 #include "core/impact/primitive_volume.h"
+#include "core/math/roundoff.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +22,6 @@
 namespace touchstone::impact {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 // Range of the sizes for which the bounds hold in spite of underflow (volume_bound).
 constexpr double least_size = 0x1p-200, largest_size = 0x1p+300;
 // The bounds above, in u·Q and u·Σ|n_c|·P_c.

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/math/pose.h"
+#include "core/math/roundoff.h"
 
 namespace touchstone {
 
@@ -30,7 +31,6 @@ inline bool overlaps(const Aabb& a, const Aabb& b) {
 /// Contains every point within `by` >= 0 of the box: each side is moved outward by that, and by the rounding
 /// of the sum.
 inline Aabb widened(Aabb box, double by) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   for (int k = 0; k < 3; ++k) {
     box.lo[k] = std::nextafter(box.lo[k] - by, -infinity);
     box.hi[k] = std::nextafter(box.hi[k] + by, infinity);

@@ -7,12 +7,10 @@
 // lengths would leave the latter's range, callers scale by powers of two first (core/narrow/unit_scale.h).
 #pragma once
 
-#include <algorithm>
 #include <cfloat>
 #include <cmath>
 #include <limits>
 
-#include "core/math/axis_rotation.h"
 #include "core/math/double_double.h"
 #include "core/math/pose.h"
 
@@ -53,50 +51,22 @@ struct Frame {
 using WideFrame = Frame<Wide>;
 
 /// A quaternion of the same rotation whose squares Wide holds.
-inline Quat in_range_of_wide(const Quat& q) {
-  if (wide_holds_squares) return q;
-  const int e = -std::ilogb(std::max({std::abs(q.x), std::abs(q.y), std::abs(q.z), std::abs(q.w)}));
-  return {std::ldexp(q.x, e), std::ldexp(q.y, e), std::ldexp(q.z, e), std::ldexp(q.w, e)};
-}
+Quat in_range_of_wide(const Quat& q);
 
 /// |v|, also where Wide does not hold the squares.
-inline Wide wide_norm(const WideVec& v) {
-  if constexpr (wide_holds_squares) {
-    return v.norm();
-  } else {
-    const double most = v.cast<double>().cwiseAbs().maxCoeff();
-    if (!(most > 0) || !std::isfinite(most)) return most;
-    const int e = std::ilogb(most);
-    return ldexp(WideVec(v.unaryExpr([&](const Wide& x) { return ldexp(x, -e); })).norm(), e);
-  }
-}
+Wide wide_norm(const WideVec& v);
 
 /// R(q) of any finite non-zero quaternion. Each entry is a quotient of sums of four products; its error is at
 /// most 12 units of 2⁻⁶⁴.
-inline WideMat wide_rotation(const Quat& any) {
-  const Quat q = in_range_of_wide(any);
-  const Wide x = q.x, y = q.y, z = q.z, w = q.w, n = x * x + y * y + z * z + w * w;
-  WideMat r;
-  r << (w * w + x * x - y * y - z * z) / n, 2 * (x * y - w * z) / n, 2 * (x * z + w * y) / n,
-      2 * (x * y + w * z) / n, (w * w - x * x + y * y - z * z) / n, 2 * (y * z - w * x) / n,
-      2 * (x * z - w * y) / n, 2 * (y * z + w * x) / n, (w * w - x * x - y * y + z * z) / n;
-  return r;
-}
+WideMat wide_rotation(const Quat& q);
 
-inline WideFrame wide_frame(const Pose& p) { return {wide_rotation(p.rotation), p.translation.cast<Wide>()}; }
+WideFrame wide_frame(const Pose& p);
 
 /// Each column rotated by t·angular.
-template <class Columns>
-Columns turned(const Columns& x, const WideVec& angular, Wide t) {
-  const Wide speed = wide_norm(angular);
-  if (!(speed > 0) || t == 0) return x;
-  return rotation_about<Wide>(angular / speed, speed * t) * x;
-}
+WideVec turned(const WideVec& x, const WideVec& angular, Wide t);
+WideMat turned(const WideMat& columns, const WideVec& angular, Wide t);
 
 /// The frame at time t under truth.md's motion: rotation about the body's origin, world axes.
-inline WideFrame wide_frame_at(const Pose& p, const Motion& m, Wide t) {
-  return {turned(wide_rotation(p.rotation), m.angular.cast<Wide>(), t),
-          p.translation.cast<Wide>() + t * m.linear.cast<Wide>()};
-}
+WideFrame wide_frame_at(const Pose& p, const Motion& m, Wide t);
 
 }  // namespace touchstone

@@ -1,14 +1,12 @@
 #include "core/narrow/bounded.h"
 
 #include <cmath>
-#include <limits>
 
+#include "core/math/roundoff.h"
 #include "core/tolerance.h"
 
 namespace touchstone {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // Values of n·x on the placed shape relative to its origin.
 Interval<double> extent_along(const PlacedShape& s, const Vec3& n) {

@@ -1,6 +1,6 @@
 #include <algorithm>
-#include <limits>
 
+#include "core/math/roundoff.h"
 #include "core/narrow/convex_pair.h"
 #include "core/narrow/mesh.h"
 #include "core/narrow/mesh_pairs.h"
@@ -9,8 +9,6 @@
 
 namespace touchstone::narrow {
 namespace {
-
-constexpr Wide infinity = std::numeric_limits<Wide>::infinity();
 
 // The least gap of these pairs. A bound in doubles is lowered by the displacement it does not include.
 Separation least_of(const TrianglePairs& found, const MeshScene& m, const WideFrame& fa,

@@ -5,14 +5,13 @@
 #include <limits>
 #include <tuple>
 
+#include "core/math/roundoff.h"
 #include "core/narrow/filtered/query.h"
 #include "core/narrow/mesh.h"
 #include "core/tolerance.h"
 
 namespace touchstone::narrow {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // Lengths, in the scene's unit: the fourth power of one and its rounding are normal numbers in between.
 constexpr double least_length = 0x1p-200, greatest_length = 0x1p+200;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <limits>
 
 #include "core/math/aabb.h"
 #include "core/math/roundoff.h"
@@ -11,8 +10,6 @@
 
 namespace touchstone::narrow {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // Directions tried for one pair, and motions along one of them: each passes a triangle at least. Then motions
 // back along it, and directions found where the bodies touch at its end.

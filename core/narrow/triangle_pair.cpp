@@ -2,14 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/math/roundoff.h"
 
 namespace touchstone::narrow {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // Square of a direction's length, in the fourth power of the scene's unit, below which it may have lost
 // digits to underflow: no such direction is tried.

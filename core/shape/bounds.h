@@ -31,28 +31,15 @@ Interval<T> extent_of(const std::vector<Vec3>& points, const V3<T>& d) {
   return r;
 }
 
-inline Wide largest_coordinate_sum(const std::vector<Vec3>& points) {
-  Wide r = 0;
-  for (const Vec3& p : points) r = std::max(r, p.cast<Wide>().lpNorm<1>());
-  return r;
-}
+Wide largest_coordinate_sum(const std::vector<Vec3>& points);
+
+/// |v| without overflow or underflow.
+double scaled_norm(const Vec3& v);
 
 /// Largest distance from the origin, without overflow.
-inline double farthest(const std::vector<Vec3>& points) {
-  double r = 0;
-  for (const Vec3& p : points) r = std::max(r, p.stableNorm());
-  return r;
-}
+double farthest(const std::vector<Vec3>& points);
 
-inline double largest_half_extent(const std::vector<Vec3>& points) {
-  if (points.empty()) return 0;
-  Vec3 lo = points.front(), hi = points.front();
-  for (const Vec3& p : points) {
-    lo = lo.cwiseMin(p);
-    hi = hi.cwiseMax(p);
-  }
-  return (hi - lo).maxCoeff() / 2;
-}
+double largest_half_extent(const std::vector<Vec3>& points);
 
 /// Balls in a shape, to about ten roundings of double.
 struct InnerRadii {

@@ -111,7 +111,7 @@ struct Box {
   static constexpr bool has_ball = false;
   double ball_radius() const { return 0; }
   bool is_ball() const { return false; }
-  double bounding_radius() const { return half_extents.stableNorm(); }
+  double bounding_radius() const { return scaled_norm(half_extents); }
   double extent() const { return half_extents.maxCoeff(); }
   template <class T>
   Interval<T> extent_along(const V3<T>& d) const {

@@ -128,7 +128,7 @@ struct Ellipsoid {
     else if (const T square = scaled.squaredNorm(); square > least_square)
       return both_sides<T>(std::sqrt(square));
     else
-      return both_sides<T>(scaled.stableNorm());
+      return both_sides<T>(static_cast<T>(scaled_norm(scaled.template cast<double>())));
   }
   Wide coordinate_sum() const { return semi_axes.cast<Wide>().sum(); }
   InnerRadii inner_radii() const {

@@ -97,13 +97,14 @@ V3<R> triangle_normal(const V3<R>& a, const V3<R>& b, const V3<R>& c) {
 template <class R>
 struct DistinctPoints {
   std::array<V3<R>, 3> p;
-  int size = 0;
+  int size = 1;
   DistinctPoints(const std::array<V3<R>, 3>& from, R near) {
-    for (const V3<R>& x : from) {
+    p[0] = from[0];
+    for (std::size_t k = 1; k < from.size(); ++k) {
       bool repeat = false;
       for (int i = 0; i < size; ++i)
-        repeat |= (p[static_cast<std::size_t>(i)] - x).template lpNorm<1>() <= near;
-      if (!repeat) p[static_cast<std::size_t>(size++)] = x;
+        repeat |= (p[static_cast<std::size_t>(i)] - from[k]).template lpNorm<1>() <= near;
+      if (!repeat) p[static_cast<std::size_t>(size++)] = from[k];
     }
   }
 };

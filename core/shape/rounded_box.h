@@ -27,7 +27,7 @@ struct RoundedBox {
   static constexpr bool has_ball = true;
   double ball_radius() const { return radius; }
   bool is_ball() const { return half_extents.isZero(0); }
-  double bounding_radius() const { return half_extents.stableNorm() + radius; }
+  double bounding_radius() const { return scaled_norm(half_extents) + radius; }
   double extent() const { return half_extents.maxCoeff() + radius; }
   template <class T>
   Interval<T> extent_along(const V3<T>& d) const {

@@ -2,18 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <numbers>
 #include <queue>
 
 #include "core/math/expansion.h"
+#include "core/math/roundoff.h"
 #include "core/narrow/narrow_phase.h"
 
 namespace touchstone {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // About ten roundings lie between a shape's numbers and a computed length.
 constexpr double length_rounding = 0x1p-48;

@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "core/math/roundoff.h"
 #include "oracles/checker/checker.h"
 
 namespace touchstone::fuzz {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 bool is_mesh(const Placed& p) { return touchstone::is_mesh(*p.shape); }
 bool is_half_space(const Placed& p) { return std::holds_alternative<HalfSpace>(*p.shape); }

@@ -22,7 +22,6 @@ constexpr auto point_fields = std::to_array<std::string_view>({"position", "dept
 double number_of(const JsonReader& r) {
   if (!r.json().is_string()) return r.number();
   const std::string s = r.string();
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   if (s == "NaN") return std::numeric_limits<double>::quiet_NaN();
   if (s == "Infinity") return infinity;
   if (s == "-Infinity") return -infinity;

@@ -1,20 +1,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <queue>
 #include <set>
 
 #include "core/math/expansion.h"
+#include "core/math/roundoff.h"
 #include "fuzz/cover/closed_mesh.h"
 #include "fuzz/cover/limits.h"
 #include "fuzz/cover/measure.h"
 
 namespace touchstone::fuzz {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct Corner {
   Vec3 p;

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <queue>
 
+#include "core/math/roundoff.h"
 #include "fuzz/cover/limits.h"
 #include "fuzz/cover/measure.h"
 
@@ -11,8 +11,6 @@ namespace touchstone::fuzz {
 namespace {
 
 using referee::Bracket;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double distance_from(const Aabb& b, const Vec3& p) {
   return (b.lo - p).cwiseMax(p - b.hi).cwiseMax(Vec3::Zero()).norm();

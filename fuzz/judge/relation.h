@@ -13,21 +13,19 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "core/math/roundoff.h"
 #include "fuzz/judge/tau.h"
 #include "scenarios/value/engine_card.h"
 #include "scenarios/value/judgement.h"
 #include "scenarios/value/observation.h"
 
 namespace touchstone::fuzz {
-
-inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Closed; empty when lo > hi.
 struct GapInterval {

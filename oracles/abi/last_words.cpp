@@ -117,7 +117,7 @@ Said memory_error(const std::vector<std::string_view>& lines) {
 
 // ---- where it was
 
-struct Frame {
+struct StackFrame {
   std::string module, offset, function;
 };
 
@@ -150,9 +150,9 @@ std::string short_name(const std::string& plain) {
   return std::string(parts[parts.size() - 2]) + "::" + std::string(parts.back());
 }
 
-Frame frame_from(std::string_view text) {
+StackFrame frame_from(std::string_view text) {
   const auto words = split(text, " ");
-  Frame f;
+  StackFrame f;
   const auto plus = words[0].rfind('+');
   f.module = words[0].substr(0, plus);
   if (plus != std::string_view::npos) f.offset = words[0].substr(plus);
@@ -161,8 +161,8 @@ Frame frame_from(std::string_view text) {
   return f;
 }
 
-std::vector<Frame> frames_in(const std::vector<std::string_view>& lines) {
-  std::vector<Frame> frames;
+std::vector<StackFrame> frames_in(const std::vector<std::string_view>& lines) {
+  std::vector<StackFrame> frames;
   for (const std::string_view line : lines) {
     if (!line.starts_with(frames_prefix)) continue;
     frames.clear();
@@ -174,18 +174,18 @@ std::vector<Frame> frames_in(const std::vector<std::string_view>& lines) {
 }
 
 /// The innermost function with a name. If no frame has one, only the module: offsets change with every build.
-std::string site_of(const std::vector<Frame>& frames) {
+std::string site_of(const std::vector<StackFrame>& frames) {
   if (frames.empty()) return "";
   const auto named =
-      std::find_if(frames.begin(), frames.end(), [](const Frame& f) { return !f.function.empty(); });
+      std::find_if(frames.begin(), frames.end(), [](const StackFrame& f) { return !f.function.empty(); });
   const std::string& module = (named == frames.end() ? frames[0] : *named).module;
   const std::string library = module.substr(0, module.find(".so"));
   return named == frames.end() ? library : library + ":" + short_name(named->function);
 }
 
-std::string text_of(const std::vector<Frame>& frames) {
+std::string text_of(const std::vector<StackFrame>& frames) {
   std::string out;
-  for (const Frame& f : frames)
+  for (const StackFrame& f : frames)
     out += (out.empty() ? "" : " < ") + f.module + f.offset +
            (f.function.empty() ? "" : " (" + f.function + ")");
   return out;
@@ -199,7 +199,7 @@ void cut(std::string& s, std::size_t most) {
 
 LastWords last_words(std::string_view how, std::string_view standard_error, bool speaks) {
   std::vector<std::string_view> lines = split(standard_error, "\n");
-  const std::vector<Frame> frames = frames_in(lines);
+  const std::vector<StackFrame> frames = frames_in(lines);
   std::erase_if(lines, [](std::string_view l) { return l.starts_with(frames_prefix); });
   LastWords out{std::string(how), ""};
   if (speaks) {

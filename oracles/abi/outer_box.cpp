@@ -1,14 +1,12 @@
 #include "oracles/abi/outer_box.h"
 
 #include <cmath>
-#include <limits>
 
 #include "core/math/error_free.h"
+#include "core/math/roundoff.h"
 
 namespace touchstone {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Relative to the sum of the shape's coordinates. An entry of the rotation has an error of at most 10
 /// roundings and an extent along a row of it eight more: (3 · 10 + 8) · 2⁻⁵³ < 2⁻⁴⁷. Tested by: tests/oracles

@@ -226,8 +226,6 @@ Certificate mesh_planes(const Placed& a, const Placed& b) {
   return all;
 }
 
-bool is_mesh(const Placed& p) { return std::holds_alternative<TriangleMesh>(*p.shape); }
-
 std::optional<ExactBody> exact_body(const Placed& p) {
   auto core = core_points(p);
   if (!core) return std::nullopt;
@@ -238,8 +236,8 @@ Certificate exact_form(const PairTruth& truth, const Placed& a, const Placed& b)
   const bool plane_a = is_half_space(a), plane_b = is_half_space(b);
   const bool overlap = truth.verdict == Verdict::overlap;
   if (plane_a && plane_b) return {};
-  if (is_mesh(a) || is_mesh(b)) {
-    const bool both = is_mesh(a) && is_mesh(b);
+  if (is<TriangleMesh>(a) || is<TriangleMesh>(b)) {
+    const bool both = is<TriangleMesh>(a) && is<TriangleMesh>(b);
     return overlap || both || plane_a || plane_b ? Certificate{} : mesh_planes(a, b);
   }
   if (plane_a || plane_b) {

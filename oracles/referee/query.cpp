@@ -1,6 +1,7 @@
 // width, distance_to and outer_box: support values with their error bounds.
 #include <algorithm>
 
+#include "core/math/roundoff.h"
 #include "oracles/referee/exact/exact_pair.h"
 #include "oracles/referee/filter/convex.h"
 #include "oracles/referee/filter/half_space.h"
@@ -10,8 +11,6 @@
 
 namespace touchstone::referee {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 template <class S>
 const S* get(const Placed& p) {

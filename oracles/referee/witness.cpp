@@ -15,11 +15,6 @@ namespace {
 // Points realise the depth if they are off by this part of the bodies' size.
 constexpr double witness_slack = 1e-7;
 
-template <class S>
-bool is(const Placed& p) {
-  return std::holds_alternative<S>(*p.shape);
-}
-
 double depth_of(const PairTruth& t) { return -0.5 * (t.gap.lo + t.gap.hi); }
 
 double error_of(const PairTruth& t) {

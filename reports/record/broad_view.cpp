@@ -5,22 +5,22 @@
 namespace touchstone::fuzz {
 namespace {
 
-using Json = nlohmann::json;
+using SortedJson = nlohmann::json;
 
-Json ends(const Vec3& v) {
-  Json j = Json::array();
-  for (int k = 0; k < 3; ++k) j.push_back(std::isfinite(v[k]) ? Json(v[k]) : Json());
+SortedJson ends(const Vec3& v) {
+  SortedJson j = SortedJson::array();
+  for (int k = 0; k < 3; ++k) j.push_back(std::isfinite(v[k]) ? SortedJson(v[k]) : SortedJson());
   return j;
 }
 
-Json box(const Aabb& b) { return {ends(b.lo), ends(b.hi)}; }
+SortedJson box(const Aabb& b) { return {ends(b.lo), ends(b.hi)}; }
 
-Json look(const BroadView::Look& l) {
-  Json grids = Json::array(), nodes = Json::array();
+SortedJson look(const BroadView::Look& l) {
+  SortedJson grids = SortedJson::array(), nodes = SortedJson::array();
   for (const auto& g : l.grids)
     grids.push_back({{"along", g.along}, {"origin", g.origin}, {"cell", g.cell}, {"count", g.count}});
   for (const auto& level : l.nodes) {
-    Json boxes = Json::array();
+    SortedJson boxes = SortedJson::array();
     for (const Aabb& b : level) boxes.push_back(box(b));
     nodes.push_back(boxes);
   }
@@ -30,11 +30,11 @@ Json look(const BroadView::Look& l) {
 
 }  // namespace
 
-Json to_json(const BroadView& v) {
-  Json frames = Json::array();
+SortedJson to_json(const BroadView& v) {
+  SortedJson frames = SortedJson::array();
   for (const auto& f : v.frames) {
-    Json boxes = Json::array(), looks = Json::array();
-    for (const auto& b : f.boxes) boxes.push_back(b ? box(*b) : Json());
+    SortedJson boxes = SortedJson::array(), looks = SortedJson::array();
+    for (const auto& b : f.boxes) boxes.push_back(b ? box(*b) : SortedJson());
     for (const auto& l : f.looks) looks.push_back(look(l));
     frames.push_back({{"boxes", boxes},
                       {"kept", f.kept},

@@ -86,19 +86,19 @@ void file_under(ExpectedComparison& r, const Failure& f, const ByQuestion& entri
   r.newly_wrong.push_back({f, ended});
 }
 
-Json to_json(const AskedQuestion& a, const std::string& fault) {
+Json entry_json(const AskedQuestion& a, const std::string& fault) {
   return {{"case", a.case_id}, {"engine", a.engine}, {"question", a.question}, {"fault", fault}};
 }
 
-Json to_json(const ExpectedFailure& e) {
-  Json j = to_json(e.asked, e.fault);
+Json entry_json(const ExpectedFailure& e) {
+  Json j = entry_json(e.asked, e.fault);
   j["reason"] = e.reason;
   if (!e.until.empty()) j["until"] = e.until;
   return j;
 }
 
-Json to_json(const ExpectedComparison::Filed& filed) {
-  Json j = to_json(filed.failure.asked, filed.failure.fault);
+Json entry_json(const ExpectedComparison::Filed& filed) {
+  Json j = entry_json(filed.failure.asked, filed.failure.fault);
   j["words"] = filed.failure.words;
   j["why"] = filed.why;
   return j;
@@ -107,7 +107,7 @@ Json to_json(const ExpectedComparison::Filed& filed) {
 template <class T>
 Json list(const std::vector<T>& all) {
   Json j = Json::array();
-  for (const T& one : all) j.push_back(to_json(one));
+  for (const T& one : all) j.push_back(entry_json(one));
   return j;
 }
 

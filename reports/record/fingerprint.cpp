@@ -77,7 +77,7 @@ std::uint64_t hex_number(const JsonReader& r, std::string_view digits) {
   return x;
 }
 
-Json to_json(const Fingerprint::Group& g) {
+Json group_json(const Fingerprint::Group& g) {
   std::string each;
   for (const std::uint32_t a : g.answers) each += hex(a, hex_digits);
   return {{"question", g.question},   {"shapes", g.shapes},        {"asked", g.answers.size()},
@@ -195,7 +195,7 @@ Json to_json(const Fingerprint& f) {
          {"digest", hex(f.digest, 16)}, {"engine", f.engine},     {"library", f.library},
          {"version", f.version},        {"settings", f.settings}, {"hash", hex(f.hash(), 16)}};
   j["groups"] = Json::array();
-  for (const Fingerprint::Group& g : f.groups) j["groups"].push_back(to_json(g));
+  for (const Fingerprint::Group& g : f.groups) j["groups"].push_back(group_json(g));
   return j;
 }
 

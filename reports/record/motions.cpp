@@ -22,7 +22,7 @@ Json counts(const MotionResult& r) {
   return j;
 }
 
-Json to_json(const MotionEvidence& e) {
+Json evidence_json(const MotionEvidence& e) {
   return {{"kind", e.kind},
           {"motion", e.motion},
           {"frame", e.frame},
@@ -89,7 +89,7 @@ Json to_json(const Motions& m) {
   for (const MotionResult& r : m.results) {
     Json j = counts(r);
     j["evidence"] = Json::array();
-    for (const MotionEvidence& e : r.evidence) j["evidence"].push_back(to_json(e));
+    for (const MotionEvidence& e : r.evidence) j["evidence"].push_back(evidence_json(e));
     results.push_back(std::move(j));
   }
   return {{"page", "motions"},

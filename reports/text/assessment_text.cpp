@@ -49,8 +49,8 @@ std::size_t width_of(const std::string& text) {
   return text.size() - static_cast<std::size_t>(std::count_if(text.begin(), text.end(), continues));
 }
 
-constexpr std::size_t columns = 8;
-using Row = std::array<std::string, columns>;
+constexpr std::size_t column_count = 8;
+using Row = std::array<std::string, column_count>;
 
 Row row_of(const AssessedEngine& e) {
   const Tally &o = tally_of(e, Question::overlap), &d = tally_of(e, Question::distance);
@@ -73,9 +73,9 @@ std::string table(const Assessment& a) {
     rows.push_back(row_of(e));
     name_width = std::max(name_width, printable(e.name).size());
   }
-  std::array<std::size_t, columns> widths{};
+  std::array<std::size_t, column_count> widths{};
   std::size_t numbers = 0;
-  for (std::size_t c = 0; c < columns; ++c) {
+  for (std::size_t c = 0; c < column_count; ++c) {
     widths[c] = headings[c].size() + 1;
     for (const Row& r : rows) widths[c] = std::max(widths[c], width_of(r[c]) + 1);
     numbers += widths[c];
@@ -83,7 +83,7 @@ std::string table(const Assessment& a) {
   name_width = std::min(name_width, text_width - std::min(numbers, text_width - 1));
   const auto cells = [&](const Row& r) {
     std::string text;
-    for (std::size_t c = 0; c < columns; ++c) text += fmt::format("{:>{}}", r[c], widths[c]);
+    for (std::size_t c = 0; c < column_count; ++c) text += fmt::format("{:>{}}", r[c], widths[c]);
     return text + "\n";
   };
   const std::size_t of_test = widths[0] + widths[1] + widths[2] + widths[3],

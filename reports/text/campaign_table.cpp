@@ -22,16 +22,17 @@ struct Column {
   std::optional<Question> with = std::nullopt;
 };
 // In the order in which an engine works; titles fit the width of a cell.
-constexpr auto columns = std::to_array<Column>({{Question::overlap, "overlap", Question::within},
-                                                {Question::distance, "dist", Question::bounded_distance},
-                                                {Question::contact, "contact"},
-                                                {Question::time_of_impact, "impact", Question::ray},
-                                                {Question::candidates, "pairs", Question::candidates_within},
-                                                {Question::scene_contacts, "scene"},
-                                                {Question::swept_candidates, "swept"}});
+constexpr auto question_columns =
+    std::to_array<Column>({{Question::overlap, "overlap", Question::within},
+                           {Question::distance, "dist", Question::bounded_distance},
+                           {Question::contact, "contact"},
+                           {Question::time_of_impact, "impact", Question::ray},
+                           {Question::candidates, "pairs", Question::candidates_within},
+                           {Question::scene_contacts, "scene"},
+                           {Question::swept_candidates, "swept"}});
 constexpr std::size_t questions_in_columns() {
   std::size_t n = 0;
-  for (const Column& c : columns) n += c.with ? 2 : 1;
+  for (const Column& c : question_columns) n += c.with ? 2 : 1;
   return n;
 }
 static_assert(questions_in_columns() == question_names.size());
@@ -62,7 +63,7 @@ std::uint64_t answers_to(const Tallies* t, const Column& c) { return count_of(t,
 
 std::uint64_t answers_of(const Tallies* t) {
   std::uint64_t n = 0;
-  for (const Column& c : columns) n += answers_to(t, c);
+  for (const Column& c : question_columns) n += answers_to(t, c);
   return n;
 }
 
@@ -118,7 +119,7 @@ std::string campaign_table(const fuzz::CampaignResult& r) {
   std::vector<Column> shown;
   bool any_tuned = false;
   for (const TableRow& row : rows) any_tuned |= row.tuned != nullptr;
-  for (const Column& c : columns)
+  for (const Column& c : question_columns)
     if (std::any_of(rows.begin(), rows.end(), [&](const TableRow& row) {
           return answers_to(row.shipped, c) + answers_to(row.tuned, c) > 0;
         }))

@@ -27,21 +27,22 @@ std::string price(std::uint64_t reported, std::uint64_t truth) {
 constexpr double most_with_tenths = 99.95;
 
 // Columns are separated by a space even if an entry is too wide.
-std::string columns(std::string_view kind, std::string_view name, const std::string& cases,
-                    const std::string& queries, const std::string& pairs, const std::string& price,
-                    const std::string& seconds) {
+std::string in_columns(std::string_view kind, std::string_view name, const std::string& cases,
+                       const std::string& queries, const std::string& pairs, const std::string& price,
+                       const std::string& seconds) {
   return fmt::format("  {:<11} {:<19} {:>9} {:>9} {:>11} {:>7}{}{}\n", kind, name, cases, queries, pairs,
                      price, seconds.empty() ? "" : " ", seconds);
 }
 
 std::string row(const EvidenceCount& e, bool times) {
-  return columns(to_string(e.kind), e.name, grouped(e.cases), grouped(e.queries), grouped(e.pairs_true),
-                 price(e.pairs_reported, e.pairs_true),
-                 times ? fmt::format("{:>5.{}f}", e.seconds, e.seconds < most_with_tenths ? 1 : 0) : "");
+  return in_columns(to_string(e.kind), e.name, grouped(e.cases), grouped(e.queries), grouped(e.pairs_true),
+                    price(e.pairs_reported, e.pairs_true),
+                    times ? fmt::format("{:>5.{}f}", e.seconds, e.seconds < most_with_tenths ? 1 : 0) : "");
 }
 
 std::string table(const BroadCertificate& c, BroadLevel level, bool times) {
-  std::string out = columns("kind", "suite", "cases", "queries", "true pairs", "price", times ? "    s" : "");
+  std::string out =
+      in_columns("kind", "suite", "cases", "queries", "true pairs", "price", times ? "    s" : "");
   for (const EvidenceCount& e : c.evidence) {
     if (e.level != level) continue;
     out += row(e, times);

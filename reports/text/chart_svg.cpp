@@ -25,7 +25,7 @@ constexpr std::array panels = {Panel{"overlap", "Overlap"}, Panel{"distance", "D
 constexpr double panel_width = 440, panel_height = 300, left = 64, right = 20, top = 34, bottom = 34;
 constexpr double least_time = 2, most_time = 5, least_error = -16, most_error = 2, error_step = 3;
 constexpr double character_width = 6.6, line_height = 13, label_gap = 8;
-constexpr std::size_t columns = 2;
+constexpr std::size_t panels_per_row = 2;
 // Two lines of a legend below the panels.
 constexpr double legend_height = 44;
 
@@ -157,7 +157,8 @@ std::string legend(const fuzz::Chart& chart, const Colours& c, double y) {
 
 std::string chart_svg(const fuzz::Chart& excerpt, bool for_dark) {
   const Colours& c = for_dark ? dark : light;
-  const double width = panel_width * columns, panels_height = panel_height * (panels.size() / columns);
+  const double width = panel_width * panels_per_row,
+               panels_height = panel_height * (panels.size() / panels_per_row);
   const double height = panels_height + legend_height;
   std::string s = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" "
@@ -166,8 +167,8 @@ std::string chart_svg(const fuzz::Chart& excerpt, bool for_dark) {
       width, height, c.background);
   for (std::size_t i = 0; i < panels.size(); ++i)
     s += fmt::format("<g transform=\"translate({:.0f} {:.0f})\">\n{}</g>\n",
-                     panel_width * static_cast<double>(i % columns),
-                     panel_height * static_cast<double>(i / columns), panel(excerpt, panels[i], c));
+                     panel_width * static_cast<double>(i % panels_per_row),
+                     panel_height * static_cast<double>(i / panels_per_row), panel(excerpt, panels[i], c));
   return s + legend(excerpt, c, panels_height + line_height) + "</svg>\n";
 }
 

@@ -12,7 +12,7 @@ namespace {
 using fuzz::MotionResult;
 using fuzz::Motions;
 
-constexpr std::size_t columns = 79, name_width = 25, cell_width = 9;
+constexpr std::size_t line_width = 79, name_width = 25, cell_width = 9;
 
 std::vector<std::string> engines_of(const Motions& m) {
   std::vector<std::string> names;
@@ -90,7 +90,7 @@ std::string evidence_of(const Motions& m, const std::string& engine) {
       text += "  " +
               wrapped(fmt::format("{}: {} frame {} of {}, {} of {} and {}: {}", e.kind, e.motion, e.frame,
                                   e.frames, e.question, e.a, e.b, e.words),
-                      columns - 2, 4) +
+                      line_width - 2, 4) +
               "\n";
     }
   }
@@ -104,12 +104,12 @@ std::string motions_text(const Motions& m) {
       fmt::format("{} of {} frames each. Flicker: changes of an answer from one frame to the next that the "
                   "truth does not make, per thousand. Blank: no answers.",
                   m.count == 1 ? "One motion" : fmt::format("{} motions a column", m.count), m.frames),
-      columns, 0);
+      line_width, 0);
   text += "\n\n" + table(m, "flicker", score_cell) + table(m, "wrong or failed, %", wrong_cell) +
           table(m, "state-dependent answers", state_cell) + kinds_table(m);
   for (const std::string& e : engines_of(m)) text += evidence_of(m, e);
   for (const auto& row : m.rows)
-    if (!row.line.empty()) text += "  " + wrapped(row.name + ": " + row.line, columns - 3, 4) + "\n";
+    if (!row.line.empty()) text += "  " + wrapped(row.name + ": " + row.line, line_width - 3, 4) + "\n";
   return text;
 }
 

@@ -11,7 +11,7 @@
 namespace touchstone::reports {
 namespace {
 
-using Json = nlohmann::json;
+using SortedJson = nlohmann::json;
 
 // The page stores lengths as whole steps from `origin`, finer than any screen can show. An infinite end is
 // null.
@@ -43,20 +43,20 @@ Ruler ruler_for(const fuzz::BroadView& view) {
 }
 
 // A box as differences from `last`, its ends in the previous frame.
-Json packed(const Aabb& b, const Ruler& ruler, std::array<std::int64_t, 6>& last) {
-  Json j = Json::array();
+SortedJson packed(const Aabb& b, const Ruler& ruler, std::array<std::int64_t, 6>& last) {
+  SortedJson j = SortedJson::array();
   const auto all = ends(b);
   for (std::size_t k = 0; k < 6; ++k) {
     const auto x = ruler(all[k]);
-    j.push_back(x ? Json(*x - last[k]) : Json());
+    j.push_back(x ? SortedJson(*x - last[k]) : SortedJson());
     if (x) last[k] = *x;
   }
   return j;
 }
 
 // Sorted pairs (a, b), a < b: a as the difference from the previous a, b from the previous b or from a new a.
-Json packed(const std::vector<BodyPair>& pairs) {
-  Json j = Json::array();
+SortedJson packed(const std::vector<BodyPair>& pairs) {
+  SortedJson j = SortedJson::array();
   int last_a = 0, last_b = 0;
   for (const auto& [a, b] : pairs) {
     if (a != last_a) last_b = a;
@@ -68,10 +68,10 @@ Json packed(const std::vector<BodyPair>& pairs) {
   return j;
 }
 
-Json packed_nodes(const std::vector<std::vector<Aabb>>& levels, const Ruler& ruler) {
-  Json j = Json::array();
+SortedJson packed_nodes(const std::vector<std::vector<Aabb>>& levels, const Ruler& ruler) {
+  SortedJson j = SortedJson::array();
   for (const auto& level : levels) {
-    Json& boxes = j.emplace_back(Json::array());
+    SortedJson& boxes = j.emplace_back(SortedJson::array());
     for (const Aabb& b : level) {
       std::array<std::int64_t, 6> none{};
       boxes.push_back(packed(b, ruler, none));
@@ -82,15 +82,15 @@ Json packed_nodes(const std::vector<std::vector<Aabb>>& levels, const Ruler& rul
 
 }  // namespace
 
-Json packed_broad_view(const fuzz::BroadView& view) {
+SortedJson packed_broad_view(const fuzz::BroadView& view) {
   const Ruler ruler = ruler_for(view);
-  Json j = fuzz::to_json(view);
+  SortedJson j = fuzz::to_json(view);
   j["origin"] = ruler.origin;
   j["step"] = ruler.step;
   std::vector<std::array<std::int64_t, 6>> last(view.bodies.size());
   for (std::size_t i = 0; i < view.frames.size(); ++i) {
     const auto& f = view.frames[i];
-    Json& frame = j["frames"][i];
+    SortedJson& frame = j["frames"][i];
     for (std::size_t b = 0; b < f.boxes.size(); ++b)
       if (f.boxes[b]) frame["boxes"][b] = packed(*f.boxes[b], ruler, last[b]);
     frame["kept"] = packed(f.kept);

@@ -43,7 +43,7 @@ std::string life_in_words(const VersionTable& t, const Lifetime& life) {
 }
 
 template <class Cell>
-std::string columns(const VersionTable& t, const Cell& cell) {
+std::string cells_of(const VersionTable& t, const Cell& cell) {
   std::string line(margin, ' ');
   for (std::size_t i = 0; i < t.releases.size(); ++i)
     line += fmt::format("{:<{}}", cell(i), std::max<std::size_t>(7, t.releases[i].number.size() + 1));
@@ -72,12 +72,12 @@ std::string versions_text(const VersionTable& t) {
   std::string text =
       fmt::format("{} ({}): {} in {}\n{}\n\n", t.engine, t.package, counted(t.rows.size(), "cause", "causes"),
                   counted(t.releases.size(), "release", "releases"), legend);
-  text += columns(t, [&](std::size_t i) { return t.releases[i].number; });
-  text += columns(t, [&](std::size_t i) { return easy_questions(t.releases[i]); });
+  text += cells_of(t, [&](std::size_t i) { return t.releases[i].number; });
+  text += cells_of(t, [&](std::size_t i) { return easy_questions(t.releases[i]); });
   text += paragraph("easy questions answered rightly, of those answered (engines --check)", margin);
   for (std::size_t n = 0; n < t.rows.size(); ++n) {
     const VersionTable::Row& row = t.rows[n];
-    std::string line = columns(t, [&](std::size_t i) { return mark_of(row.says[i]); });
+    std::string line = cells_of(t, [&](std::size_t i) { return mark_of(row.says[i]); });
     const std::string number = fmt::format("{:>3}", n + 1);
     text += "\n" + line.replace(0, number.size(), number);
     text += paragraph(fmt::format("{}: {}", to_string(row.severity), one_line(row.title)), margin);

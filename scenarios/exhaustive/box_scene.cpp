@@ -1,14 +1,12 @@
 #include "scenarios/exhaustive/box_scene.h"
 
 #include <cmath>
-#include <limits>
 
+#include "core/math/roundoff.h"
 #include "core/math/through_float.h"
 
 namespace touchstone::fuzz {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // Knuth's TwoSum: the rounding error of a + b is a double, even when it underflows.
 bool sum_is_exact(double a, double b) {

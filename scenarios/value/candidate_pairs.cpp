@@ -1,8 +1,8 @@
 #include "scenarios/value/candidate_pairs.h"
+#include "core/math/roundoff.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace touchstone {
@@ -23,7 +23,6 @@ Vec3 turned(const Vec3& h, unsigned thirds) {
 
 std::optional<Aabb> half_space_box(const HalfSpace& s, const Pose& pose) {
   if (thirds_of(pose.rotation) != 0) return std::nullopt;
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   Aabb box{Vec3::Constant(-infinity), Vec3::Constant(infinity)};
   for (int k = 0; k < 3; ++k) {
     if (s.normal[k] == 0) continue;

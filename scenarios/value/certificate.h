@@ -22,6 +22,11 @@ struct Placed {
   std::variant<Pose, Placement> pose;
 };
 
+template <class S>
+bool is(const Placed& p) {
+  return std::holds_alternative<S>(*p.shape);
+}
+
 /// Evidence that a reader can check by hand from the scene alone. All numbers are exact doubles in the world
 /// frame.
 struct Certificate {

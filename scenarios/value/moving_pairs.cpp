@@ -2,16 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <set>
 
+#include "core/math/roundoff.h"
 #include "core/shape/shape.h"
 #include "scenarios/value/candidate_pairs.h"
 
 namespace touchstone {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 bool moves(const Body& b) { return b.motion && !(b.motion->linear.isZero(0) && b.motion->angular.isZero(0)); }
 

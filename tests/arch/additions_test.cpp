@@ -11,6 +11,7 @@
 
 #include "tests/arch/include_walls.h"
 #include "tests/support/catch.h"
+#include "tests/support/parsed.h"
 #include "tests/support/workspace.h"
 
 using namespace touchstone::test;
@@ -21,8 +22,8 @@ namespace {
 fs::path scratch_copy(const Workspace& w) {
   const fs::path root = w.dir / "source";
   fs::create_directory(root);
-  for (const char* part :
-       {"CMakeLists.txt", "cli", "cmake", "core", "docs", "fuzz", "library", "oracles", "reports", "scenarios", "tests"})
+  for (const char* part : {"CMakeLists.txt", "cli", "cmake", "core", "docs", "fuzz", "library", "oracles",
+                           "reports", "scenarios", "tests"})
     fs::copy(fs::path(TS_SOURCE_DIR) / part, root / part, fs::copy_options::recursive);
   return root;
 }
@@ -278,7 +279,7 @@ struct Commands {
         " -DCMAKE_C_COMPILER=" TS_C_COMPILER " -DCMAKE_CXX_COMPILER=" TS_CXX_COMPILER);
     INFO(r.out << r.err);
     REQUIRE(r.code == 0);
-    for (const auto& entry : nlohmann::json::parse(read_all(w.dir / "build/compile_commands.json")))
+    for (const auto& entry : parsed<nlohmann::json>(read_all(w.dir / "build/compile_commands.json")))
       of_file.emplace(
           fs::relative(entry.at("file").get<std::string>(), root).generic_string(),
           "cd " + entry.at("directory").get<std::string>() + " && " + entry.at("command").get<std::string>());

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "tests/support/catch.h"
+#include "tests/support/parsed.h"
 #include "tests/support/workspace.h"
 
 using nlohmann::json;
@@ -23,7 +24,7 @@ void check_columns(const std::string& text) {
 std::vector<json> lines_of(const Run& r) {
   std::vector<json> all;
   std::istringstream lines(r.out);
-  for (std::string line; std::getline(lines, line);) all.push_back(json::parse(line));
+  for (std::string line; std::getline(lines, line);) all.push_back(touchstone::test::parsed<json>(line));
   return all;
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "tests/support/catch.h"
+#include "tests/support/parsed.h"
 #include "tests/support/workspace.h"
 
 using namespace touchstone::test;
@@ -28,7 +29,7 @@ bool contains(const std::string& text, const std::string& part) {
 }
 
 std::string id_of_first(const Workspace& w) {
-  return nlohmann::json::parse(read_all(w.dir / "lies/causes.json")).at("causes").at(0).at("id");
+  return parsed<nlohmann::json>(read_all(w.dir / "lies/causes.json")).at("causes").at(0).at("id");
 }
 
 }  // namespace
@@ -92,7 +93,7 @@ TEST_CASE("interrupted causes say so, leave the stored ones alone, and go on", "
     CHECK(contains(r.err, "touchstone: interrupted"));
     CHECK_FALSE(fs::exists(w.dir / "lies/causes.json"));
     const Run all = w.touchstone("triage lies --ledger known.db --json --engines " + liar);
-    for (const auto& t : nlohmann::json::parse(all.out)) CHECK(t.at("standing") == "new");
+    for (const auto& t : parsed<nlohmann::json>(all.out)) CHECK(t.at("standing") == "new");
     break;
   }
 }

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/support/catch.h"
+#include "tests/support/parsed.h"
 #include "tests/support/skip.h"
 #include "tests/support/workspace.h"
 
@@ -113,7 +114,7 @@ TEST_CASE("a certificate can be checked on its own; a tampered one is not valid"
     CHECK(read_all(w.dir / "c.html").find("histories_of_three") != std::string::npos);
   else
     CHECK(made.err.find("its data is in c.json") != std::string::npos);
-  auto j = nlohmann::ordered_json::parse(read_all(w.dir / "c.json"));
+  auto j = parsed<nlohmann::ordered_json>(read_all(w.dir / "c.json"));
   j["evidence"][0]["cases"] = 35152;
   w.write("tampered.json", j.dump());
   CHECK(w.touchstone("certify --check tampered.json").code == 1);
@@ -128,7 +129,7 @@ TEST_CASE("a plug-in that loses pairs is refuted by a script that replay accepts
   REQUIRE(r.code == 1);
   const auto script = w.dir / "c.case.json";
   REQUIRE(fs::exists(script));
-  const auto doc = nlohmann::json::parse(read_all(script));
+  const auto doc = parsed<nlohmann::json>(read_all(script));
   CHECK(doc.at("scene").at("bodies").size() == 2);
   CHECK(doc.at("scene").at("script").size() <= 6);
   CHECK(w.touchstone("replay c.case.json --engines " + subject + " --subject stale_after_move").code == 1);

@@ -8,6 +8,7 @@
 
 #include "tests/support/catch.h"
 #include "tests/support/causes_by_hand.h"
+#include "tests/support/parsed.h"
 #include "tests/support/skip.h"
 #include "tests/support/workspace.h"
 
@@ -104,7 +105,7 @@ TEST_CASE("replay shows every engine's answer beside the referee's", "[cli]") {
   CHECK(r.out.find("core") != std::string::npos);
   CHECK(longest_line(r.out) <= 80);
   const Run j = w.touchstone("replay spheres.json --json --engines core");
-  const auto doc = nlohmann::json::parse(j.out);
+  const auto doc = parsed<nlohmann::json>(j.out);
   CHECK(doc.at(0).at("queries").at(2).at("engines").at("core").at("answer").at("depth") == 0.5);
 }
 
@@ -138,7 +139,7 @@ TEST_CASE("a finding is replayed, shrinks from its directory and still shows", "
     const Run r = w.touchstone("shrink " + entry.path().string() + " -o small.json --json");
     INFO(key << " printed: " << r.err);
     REQUIRE(r.code == 0);
-    const auto doc = nlohmann::json::parse(r.out);
+    const auto doc = parsed<nlohmann::json>(r.out);
     CHECK(doc.at("key") == key);
     CHECK(doc.at("after").at("bodies") <= 2);
     const std::string engine = key.substr(0, key.find('.'));
@@ -165,7 +166,7 @@ TEST_CASE("a second triage of the same campaign finds nothing new", "[cli][optio
   CHECK(w.touchstone("triage results --ledger other.db --subject core").code == 0);
   const Run second = w.touchstone("triage results --json");
   CHECK(second.code == 0);
-  const auto doc = nlohmann::json::parse(second.out);
+  const auto doc = parsed<nlohmann::json>(second.out);
   CHECK(doc.size() > 10);
   for (const auto& f : doc) CHECK(f.at("standing") == "known");
   CHECK(w.touchstone("triage nowhere").code == 2);
@@ -191,7 +192,7 @@ TEST_CASE("shrink keeps a defensible case, and --smallest the minimum", "[cli]")
   const Run kept = w.touchstone(shrink + "--json");
   INFO(kept.out << kept.err);
   REQUIRE(kept.code == 0);
-  const auto doc = nlohmann::json::parse(kept.out);
+  const auto doc = parsed<nlohmann::json>(kept.out);
   CHECK(doc.at("defensible") == true);
   REQUIRE(doc.contains("other"));
   CHECK(doc.at("other").at("defensible") == false);
@@ -199,10 +200,10 @@ TEST_CASE("shrink keeps a defensible case, and --smallest the minimum", "[cli]")
   const Run smallest = w.touchstone(shrink + "--smallest -o small.json");
   CHECK(smallest.code == 0);
   CHECK(smallest.err.find("this is the smallest case; the defensible one has 2 bodies") != std::string::npos);
-  CHECK(nlohmann::json::parse(read_all(w.dir / "small.json")) == doc.at("other").at("case"));
+  CHECK(parsed<nlohmann::json>(read_all(w.dir / "small.json")) == doc.at("other").at("case"));
   const Run text = w.touchstone(shrink);
   CHECK(text.err.find("this is the defensible case; the smallest one has 2 bodies") != std::string::npos);
-  CHECK(nlohmann::json::parse(text.out) == doc.at("case"));
+  CHECK(parsed<nlohmann::json>(text.out) == doc.at("case"));
 }
 
 TEST_CASE("a flat hull works and is reported as flat", "[cli]") {
@@ -227,7 +228,7 @@ TEST_CASE("an interrupted campaign keeps what it has and can be resumed", "[cli]
   CHECK(r.code == 3);
   CHECK(r.out.find("interrupted; resume") != std::string::npos);
   REQUIRE(fs::exists(w.dir / "half" / "state.json"));
-  const auto state = nlohmann::json::parse(read_all(w.dir / "half" / "state.json"));
+  const auto state = parsed<nlohmann::json>(read_all(w.dir / "half" / "state.json"));
   CHECK(state.at("finished") == false);
   CHECK(state.at("result").at("cases") > 0);
   const Run on = w.touchstone("fuzz --engines core --minutes 0.01 --jobs 1 --out half");
@@ -401,7 +402,7 @@ TEST_CASE("one bad file does not affect the others", "[cli]") {
       w.touchstone("replay apart.json bad.json touching_boxes_of_no_name apart.json --json --engines core");
   INFO(r.err);
   CHECK(r.code == 2);
-  const auto doc = nlohmann::json::parse(r.out);
+  const auto doc = parsed<nlohmann::json>(r.out);
   REQUIRE(doc.size() == 4);
   CHECK(doc[0].contains("queries"));
   CHECK(doc[1].at("argument") == "bad.json");
@@ -504,7 +505,7 @@ TEST_CASE("a cause that triage could not report is not known in the next run", "
     const Run r = w.touchstone("triage clean --ledger known.db --json " + engines);
     INFO(r.err);
     CHECK(r.code == 0);
-    for (const auto& f : nlohmann::json::parse(r.out)) CHECK(f.at("standing") == standing);
+    for (const auto& f : parsed<nlohmann::json>(r.out)) CHECK(f.at("standing") == standing);
   };
   standings("", "not asked");
   standings("--engines " + liar, "still");
@@ -520,7 +521,7 @@ TEST_CASE("a suppressed cause does not fail triage through its date, and then it
   const std::string triage = "triage lies --engines " + liar;
   const Run first = w.touchstone(triage + " --json --date 2026-11-01");
   REQUIRE(first.code == 1);
-  const std::string id = nlohmann::json::parse(first.out).at(0).at("id");
+  const std::string id = parsed<nlohmann::json>(first.out).at(0).at("id");
   const std::string suppress = "triage --suppress " + id;
   for (const std::string& bad : std::initializer_list<std::string>{
            suppress, suppress + " --reason r", suppress + " --until 2099-01-01",

@@ -10,6 +10,7 @@
 
 #include "scenarios/handmade/ladders/mechanism.h"
 #include "tests/support/catch.h"
+#include "tests/support/parsed.h"
 #include "tests/support/python.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/skip.h"
@@ -34,7 +35,7 @@ std::vector<std::string> lines_of(const std::string& text) {
 std::vector<Json> stored_cases() {
   std::vector<Json> all;
   for (const auto& entry : fs::directory_iterator(corpus / "cases")) {
-    const Json file = Json::parse(read_all(entry.path()));
+    const Json file = parsed<Json>(read_all(entry.path()));
     for (const Json& c : file.at("cases")) all.push_back(c);
   }
   return all;
@@ -45,14 +46,14 @@ using Results = std::map<std::pair<std::string, std::string>, std::string>;
 
 Results results_of_program(const std::string& json) {
   Results r;
-  const Json document = Json::parse(json);
+  const Json document = parsed<Json>(json);
   for (const Json& x : document.at(0).at("results")) r[{x.at("case"), x.at("question")}] = x.at("result");
   return r;
 }
 
 Results results_of_runner(const std::string& json) {
   Results r;
-  const Json document = Json::parse(json);
+  const Json document = parsed<Json>(json);
   for (const Json& x : document) r[{x.at(0), x.at(1)}] = x.at(2);
   return r;
 }
@@ -119,7 +120,7 @@ TEST_CASE("every known failure with two shapes is in the corpus", "[cli][corpus]
   std::set<std::string> ids;
   for (const Json& c : stored_cases()) ids.insert(c.at("id"));
   std::size_t found = 0;
-  const Json known = Json::parse(read_all(file));
+  const Json known = parsed<Json>(read_all(file));
   for (const Json& e : known) {
     if (!e.contains("shape_a") || e.at("shape_a").is_null()) continue;
     INFO(e.at("id"));
@@ -165,7 +166,7 @@ TEST_CASE("the checker in Python accepts the certificates of known failures", "[
   const Workspace w("corpus-second-checker");
   std::string lines;
   std::size_t count = 0;
-  const Json known = Json::parse(read_all(corpus / "cases/known.json"));
+  const Json known = parsed<Json>(read_all(corpus / "cases/known.json"));
   for (const Json& c : known.at("cases")) {
     Json scene{{"touchstone_scene", 1}, {"shapes", Json::array()}, {"bodies", Json::array()}};
     for (const char* name : {"a", "b"}) {
@@ -192,7 +193,7 @@ TEST_CASE("the checker in Python accepts the certificates of known failures", "[
 TEST_CASE("a certificate or a truth that was changed is refused", "[cli][corpus]") {
   const Workspace w("corpus-changed");
   fs::create_directories(w.dir / "cases");
-  const Json stored = Json::parse(read_all(corpus / "cases/handmade.json"));
+  const Json stored = parsed<Json>(read_all(corpus / "cases/handmade.json"));
   const auto check_with = [&](const std::function<void(Json&)>& change) {
     Json one = stored;
     const auto& cases = stored.at("cases");

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "tests/support/catch.h"
+#include "tests/support/parsed.h"
 #include "tests/support/workspace.h"
 
 using touchstone::test::read_all;
@@ -41,14 +42,15 @@ TEST_CASE("cover says whether pieces contain a mesh, and by how much not", "[cli
   CHECK(has(yes.out, "by 2 convex pieces"));
   CHECK(has(yes.out, "yes: every point of 12 triangles"));
   CHECK(has(yes.out, "exit code 0 is about two.obj: it covers the mesh"));
-  const auto j = nlohmann::json::parse(read_all(w.dir / "two.json"));
+  const auto j = touchstone::test::parsed<nlohmann::json>(read_all(w.dir / "two.json"));
   CHECK(j["covers"] == true);
   CHECK(j["mesh_volume"] == 1);
   const auto no = w.touchstone("cover mesh.obj low.obj");
   CHECK(no.code == 1);
   CHECK(has(no.out, "have points in no piece"));
   CHECK(has(no.out, "sticks out"));
-  const auto missed = nlohmann::json::parse(w.touchstone("cover mesh.obj low.obj --json").out);
+  const auto missed =
+      touchstone::test::parsed<nlohmann::json>(w.touchstone("cover mesh.obj low.obj --json").out);
   CHECK(missed["sticks_out"]["distance"][0].get<double>() <= 0.25);
   CHECK(missed["sticks_out"]["distance"][1].get<double>() >= 0.25);
   CHECK(missed["sticks_out"]["distance"][0].get<double>() >= 0.2475);

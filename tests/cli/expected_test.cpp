@@ -4,6 +4,7 @@
 #include <string>
 
 #include "tests/support/catch.h"
+#include "tests/support/parsed.h"
 #include "tests/support/workspace.h"
 
 using namespace touchstone::test;
@@ -33,7 +34,7 @@ std::string last_line(const std::string& s) {
   return s.substr(before == std::string::npos ? 0 : before + 1);
 }
 
-Json load(const Workspace& w, const std::string& file) { return Json::parse(read_all(w.dir / file)); }
+Json load(const Workspace& w, const std::string& file) { return parsed<Json>(read_all(w.dir / file)); }
 
 }  // namespace
 
@@ -74,7 +75,7 @@ TEST_CASE("newly wrong answers are named, and fail only for the subject", "[cli]
   CHECK(w.touchstone(replay + " --subject overlap_always").code == 1);
   const Run json = w.touchstone(replay + " --json");
   CHECK(json.code == 1);
-  CHECK(Json::parse(json.out).at("newly_wrong").at(0).at("case") == "apart");
+  CHECK(parsed<Json>(json.out).at("newly_wrong").at(0).at("case") == "apart");
 }
 
 TEST_CASE("what is fixed is said, and fails when strict; what has ended is wrong again", "[cli][expected]") {

@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/support/catch.h"
+#include "tests/support/parsed.h"
 #include "tests/support/workspace.h"
 
 using namespace touchstone::test;
@@ -41,11 +42,11 @@ TEST_CASE("a comparison names the answers that differ, and the first case", "[fi
   CHECK(says(r.out, "\nfirst: case "));
   CHECK(says(r.out, "\n  A: {\"outcome\""));
   CHECK(says(r.out, "\n  B: {\"outcome\""));
-  const Json first = Json::parse(read_all(w.dir / "first.json"));
+  const Json first = parsed<Json>(read_all(w.dir / "first.json"));
   CHECK(first["queries"].size() == 1);
   CHECK(w.touchstone("replay first.json --engines core").code == 0);
   const Run json = w.touchstone("fingerprint --compare core core-f32 --cases 300 --json");
-  CHECK(Json::parse(json.out)["differ"].get<int>() > 0);
+  CHECK(parsed<Json>(json.out)["differ"].get<int>() > 0);
 }
 
 TEST_CASE("fingerprint refuses bad input", "[fingerprint]") {

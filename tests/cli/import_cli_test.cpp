@@ -5,6 +5,7 @@
 #include "reports/text/record_text.h"
 #include "reports/text/text.h"
 #include "tests/support/catch.h"
+#include "tests/support/parsed.h"
 #include "tests/support/workspace.h"
 
 using touchstone::test::read_all;
@@ -38,7 +39,7 @@ std::string unwrapped(std::string text) {
 
 // Without times, and without the order of advice that depends on them.
 Json reproducible(const std::string& text) {
-  Json j = Json::parse(text);
+  Json j = test::parsed<Json>(text);
   j.erase("advice");
   for (Json& e : j["engines"])
     for (Json& q : e["questions"]) q.erase("median_ns");
@@ -55,7 +56,7 @@ TEST_CASE("import writes a scene that other commands read, and they read the rob
   CHECK(has(r.out, "6, 5 joints"));
   CHECK(has(r.out, "no SRDF says which pairs to check"));
   CHECK(widest_line(r.out) <= 80);
-  const Json scene = Json::parse(read_all(w.dir / "scene.json"));
+  const Json scene = test::parsed<Json>(read_all(w.dir / "scene.json"));
   CHECK(scene["bodies"].size() == 6);
   CHECK(scene["bodies"][1]["name"] == "shoulder");
   CHECK_FALSE(scene["ignored"].empty());
@@ -63,8 +64,8 @@ TEST_CASE("import writes a scene that other commands read, and they read the rob
   const auto direct = w.touchstone("replay " + files + "arm.urdf --joint j2=0.5 --engines core --json");
   REQUIRE(stored.code == 0);
   REQUIRE(direct.code == 0);
-  CHECK(Json::parse(stored.out)[0]["queries"][0]["referee"] ==
-        Json::parse(direct.out)[0]["queries"][0]["referee"]);
+  CHECK(test::parsed<Json>(stored.out)[0]["queries"][0]["referee"] ==
+        test::parsed<Json>(direct.out)[0]["queries"][0]["referee"]);
   CHECK(w.touchstone("view " + files + "arm.urdf --broad --json").code == 0);
 }
 
@@ -74,7 +75,7 @@ TEST_CASE("a trajectory is a script, and filtered pairs are not asked", "[cli][i
   const auto r = w.touchstone("replay " + files + "arm.urdf --trajectory t.csv --engines core --json");
   INFO(r.err);
   REQUIRE(r.code == 0);
-  const Json query = Json::parse(r.out)[0]["queries"][0];
+  const Json query = test::parsed<Json>(r.out)[0]["queries"][0];
   REQUIRE(query["question"] == "candidates");
   REQUIRE(query["referee"]["overlapping_pairs"].size() == 3);
   // Links that a joint connects overlap in this arm, and are filtered.
@@ -109,7 +110,7 @@ TEST_CASE("assess gives the same answers for any number of jobs, and the core is
   REQUIRE(one.code == 0);
   REQUIRE(three.code == 0);
   CHECK(reproducible(one.out) == reproducible(three.out));
-  const Json j = Json::parse(one.out);
+  const Json j = test::parsed<Json>(one.out);
   CHECK(j["asked"].get<int>() > 30);
   CHECK(j["overlapping"].get<int>() > 0);
   CHECK(j["apart"].get<int>() > 0);
@@ -152,7 +153,7 @@ TEST_CASE("assess shows an engine that misses collisions, and says what finds th
                               mutants + "overlap_one_order_denied --json");
   INFO(r.err);
   REQUIRE(r.code == 0);
-  const Json j = Json::parse(r.out);
+  const Json j = test::parsed<Json>(r.out);
   REQUIRE(j["engines"].size() == 2);
   CHECK(j["world"] == "table.urdf");
   CHECK(j["engines"][1]["questions"]["overlap"]["missed"].get<int>() > 0);

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "tests/support/catch.h"
+#include "tests/support/parsed.h"
 #include "tests/support/workspace.h"
 
 using namespace touchstone::test;
@@ -52,7 +53,7 @@ TEST_CASE("judge prints what fuzz printed, without the engine", "[cli][judge]") 
   CHECK(there.out.ends_with(fuzz.out.substr(before_verdict(fuzz.out).size())));
   const Run one = w.touchstone("judge run --engine core --json --junit j.xml");
   CHECK(one.code == 0);
-  const auto j = nlohmann::json::parse(one.out);
+  const auto j = parsed<nlohmann::json>(one.out);
   CHECK(j.at("changes").at("none") == true);
   CHECK(j.at("engines").size() == 1);
   CHECK(j.at("findings").empty());
@@ -89,7 +90,7 @@ TEST_CASE("judge refuses what it cannot judge", "[cli][judge]") {
 TEST_CASE("a campaign that was ended before its first chunk proves nothing", "[cli][judge]") {
   const Workspace w("judge");
   REQUIRE(w.touchstone("fuzz --cases 32 --engines core --keep-answers --out kept").code == 0);
-  auto state = nlohmann::ordered_json::parse(read_all(w.dir / "kept/state.json"));
+  auto state = parsed<nlohmann::ordered_json>(read_all(w.dir / "kept/state.json"));
   state.erase("answers_bytes");
   state["result"]["cases"] = 0;
   w.write("kept/state.json", state.dump());

@@ -11,6 +11,7 @@
 
 #include "tests/support/catch.h"
 #include "tests/support/causes_by_hand.h"
+#include "tests/support/parsed.h"
 #include "tests/support/workspace.h"
 
 using namespace touchstone::test;
@@ -32,7 +33,7 @@ std::map<std::string, std::string> findings_of(const fs::path& campaign) {
   for (const auto& e : fs::recursive_directory_iterator(campaign / "findings"))
     if (e.is_regular_file()) files[fs::relative(e.path(), campaign).string()] = read_all(e.path());
   if (fs::exists(campaign / "answers.bin")) files["answers"] = read_all(campaign / "answers.bin");
-  files["digest"] = nlohmann::json::parse(read_all(campaign / "summary.json")).at("digest");
+  files["digest"] = parsed<nlohmann::json>(read_all(campaign / "summary.json")).at("digest");
   return files;
 }
 
@@ -109,7 +110,7 @@ TEST_CASE("a killed triage has reported whatever it put into the ledger", "[kill
   };
   const auto cases = [&](const std::string& json) {
     std::map<std::string, std::string> r;
-    for (const auto& f : nlohmann::json::parse(json)) r[f.at("id")] = f.at("case").dump();
+    for (const auto& f : parsed<nlohmann::json>(json)) r[f.at("id")] = f.at("case").dump();
     return r;
   };
   int code = 0;

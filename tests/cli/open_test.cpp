@@ -5,6 +5,7 @@
 
 #include "reports/text/web_page.h"
 #include "tests/support/catch.h"
+#include "tests/support/parsed.h"
 #include "tests/support/workspace.h"
 
 using touchstone::test::read_all;
@@ -18,8 +19,9 @@ using Json = nlohmann::json;
 // The data of the index. Without Node there are no pages, and it is in a JSON file.
 Json index_in(const fs::path& directory) {
   const fs::path page = directory / "index.html";
-  if (!fs::exists(page)) return Json::parse(read_all(directory / "index.json"));
-  return Json::parse(touchstone::reports::data_of_page(read_all(page), page.string()).value());
+  if (!fs::exists(page)) return touchstone::test::parsed<Json>(read_all(directory / "index.json"));
+  return touchstone::test::parsed<Json>(
+      touchstone::reports::data_of_page(read_all(page), page.string()).value());
 }
 
 bool has_pages() { return fs::exists(TS_BINARY_DIR "/share/touchstone/web/index.html"); }
@@ -122,7 +124,7 @@ TEST_CASE("names in files and of files stay names", "[cli][open]") {
   fs::create_directories(w.dir / hostile);
   const std::string text = read_all(TS_SOURCE_DIR "/scenarios/corpus/jolt-epa-coincident-spheres.json");
   REQUIRE_FALSE(text.empty());
-  Json c = Json::parse(text);
+  Json c = touchstone::test::parsed<Json>(text);
   c["id"] = "</script><script>alert(2)</script>";
   w.write(hostile + "/" + hostile + ".json", c.dump());
   w.write("broken.json", R"({"touchstone_causes": 1, "causes": [)");

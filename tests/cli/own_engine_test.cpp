@@ -1,9 +1,11 @@
 // A user's own engine, as a plug-in or behind a pipe: batches, kinds of shapes, times, reproducers, triage.
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <vector>
 
 #include "tests/support/catch.h"
+#include "tests/support/parsed.h"
 #include "tests/support/skip.h"
 #include "tests/support/workspace.h"
 
@@ -102,7 +104,7 @@ Run fuzz(const Workspace& w, const std::string& options, const std::string& out,
 }
 
 Json summary(const Workspace& w, const std::string& out) {
-  return Json::parse(read_all(w.dir / out / "summary.json"));
+  return parsed<Json>(read_all(w.dir / out / "summary.json"));
 }
 
 std::vector<std::string> keys(const Workspace& w, const std::string& campaign) {
@@ -306,4 +308,22 @@ TEST_CASE("the example on NumPy arrays is right", "[pipe][batch][optional]") {
   INFO(run.out << run.err);
   CHECK(run.code == 0);
   CHECK(run.out.find("about arrays: 0 wrong in") != std::string::npos);
+}
+
+TEST_CASE("the example in Rust is right", "[plugin][optional]") {
+  if (!has_command("rustc")) return skip("rustc is not installed");
+  const Workspace w("rust");
+  const std::string source = TS_SOURCE_DIR "/oracles/example/example_engine.rs";
+  const Run built =
+      w.run("rustc -O --edition 2021 --crate-type cdylib -D warnings " + source + " -o libmine.so");
+  INFO(built.out << built.err);
+  REQUIRE(built.code == 0);
+  const Run checked = w.touchstone("engines --check ./libmine.so");
+  INFO(checked.out << checked.err);
+  CHECK(checked.code == 0);
+  CHECK(checked.out.find("example-rust: 6 right, 0 wrong") != std::string::npos);
+  const Run run = w.touchstone("fuzz --engines ./libmine.so --cases 400 --out out");
+  INFO(run.out << run.err);
+  CHECK(run.code == 0);
+  CHECK(run.out.find("about example-rust: 0 wrong in") != std::string::npos);
 }

@@ -1,4 +1,5 @@
 // `engines --build`: an adapter compiled against a library in a prefix, registered, asked and removed.
+#include <cstdlib>
 #include <sys/stat.h>
 
 #include <filesystem>
@@ -7,6 +8,7 @@
 #include <string>
 
 #include "tests/support/catch.h"
+#include "tests/support/parsed.h"
 #include "tests/support/skip.h"
 #include "tests/support/workspace.h"
 
@@ -62,7 +64,7 @@ void check_spheres(const Place& w, const std::string& engine, const std::string&
     const Run r = w.touchstone("replay --json " + std::string(file) + " --engines " + engine);
     INFO(engine << " " << file << "\n" << r.out << r.err);
     CHECK(r.code == 0);
-    for (const json& query : json::parse(r.out).at(0).at("queries"))
+    for (const json& query : parsed<json>(r.out).at(0).at("queries"))
       CHECK(query.at("engines").at(engine).at("answer").value("outcome", "answered") == "answered");
   }
 }

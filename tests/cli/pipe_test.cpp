@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/support/catch.h"
+#include "tests/support/parsed.h"
 #include "tests/support/skip.h"
 #include "tests/support/workspace.h"
 
@@ -286,7 +287,7 @@ TEST_CASE("engines from npm answer in batches as they do one by one", "[pipe][np
                        (folder / script).string() + " " + packages + "'");
       INFO(r.out << r.err);
       CHECK(r.code <= 1);
-      return nlohmann::ordered_json::parse(read_all(w.dir / out / "summary.json")).at("digest");
+      return parsed<nlohmann::ordered_json>(read_all(w.dir / out / "summary.json")).at("digest");
     };
     CHECK(digest(scripts, std::string(name) + "-batches") ==
           digest(w.dir / "alone", std::string(name) + "-alone"));

@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/support/catch.h"
+#include "tests/support/parsed.h"
 #include "tests/support/workspace.h"
 
 namespace fs = std::filesystem;
@@ -31,7 +32,7 @@ TEST_CASE("random queries are the same for the same seed, and some of them hit",
   const auto counts = [&](const std::string& arguments) {
     const Run r = w.touchstone("primitives --json " + arguments);
     CHECK(r.code == 0);
-    auto rows = nlohmann::json::parse(r.out).at("primitives");
+    auto rows = touchstone::test::parsed<nlohmann::json>(r.out).at("primitives");
     for (auto& row : rows) {
       row.erase("median_ns");
       row.erase("p99_ns");
@@ -93,7 +94,7 @@ TEST_CASE("contacts that a tolerance allows are not judged, and are counted", "[
   const Run r = w.touchstone("primitives --json --random 400 --seed 5 --tolerance 0.1");
   CHECK(r.code == 0);
   std::uint64_t open = 0;
-  const auto document = nlohmann::json::parse(r.out);
+  const auto document = touchstone::test::parsed<nlohmann::json>(r.out);
   for (const auto& row : document.at("primitives")) {
     open += row.at("not_judged").get<std::uint64_t>();
     CHECK(row.at("ghost") == 0);

@@ -3,6 +3,7 @@
 
 #include "tests/support/catch.h"
 #include "tests/support/npm_registry.h"
+#include "tests/support/parsed.h"
 #include "tests/support/skip.h"
 
 using namespace touchstone::test;
@@ -34,8 +35,8 @@ TEST_CASE("several releases of one engine from npm are installed side by side, a
   const Run listed = npm.touchstone("engines --json rapier@0.5.0");
   INFO(listed.out << listed.err);
   REQUIRE(listed.code == 0);
-  CHECK(Json::parse(listed.out)[0]["name"] == "rapier@0.5.0");
-  CHECK(Json::parse(listed.out)[0]["version"] == "0.5.0");
+  CHECK(parsed<Json>(listed.out)[0]["name"] == "rapier@0.5.0");
+  CHECK(parsed<Json>(listed.out)[0]["version"] == "0.5.0");
   w.write("two.json", two_small_balls);
   const Run asked = npm.touchstone(
       "replay two.json --engines rapier@0.3.0,rapier@0.5.0,rapier@0.6.1 --subject rapier@0.5.0");
@@ -67,7 +68,7 @@ TEST_CASE("what npm and packages say about releases is checked", "[npm][optional
   INFO(r.out << r.err);
   REQUIRE(r.code == 0);
   std::vector<std::string> releases;
-  const Json table = Json::parse(r.out);
+  const Json table = parsed<Json>(r.out);
   for (const Json& release : table["releases"]) releases.push_back(release["release"]);
   CHECK(releases ==
         std::vector<std::string>{"0.0.9", "0.1.0", "0.2.0", "0.3.0", "0.4.0", "0.5.0", "0.6.1", "0.7.0"});
@@ -114,7 +115,7 @@ TEST_CASE("what a release's interface lacks or does differently is unsupported, 
     const Run r = npm.touchstone("replay moving.json --json --engines rapier@" + release);
     INFO(r.out << r.err);
     std::string outcomes;
-    const Json replayed = Json::parse(r.out);
+    const Json replayed = parsed<Json>(r.out);
     for (const Json& query : replayed[0]["queries"]) {
       const Json& a = query["engines"]["rapier@" + release]["answer"];
       outcomes += a["outcome"].get<std::string>() +
@@ -159,7 +160,7 @@ TEST_CASE("a table says which releases have a cause, the same for any number of 
   INFO(one.out << one.err);
   REQUIRE(one.code == 0);
   CHECK(one.out == two.out);
-  const Json table = Json::parse(one.out);
+  const Json table = parsed<Json>(one.out);
   CHECK(table["releases"][0]["cannot"].get<std::string>().empty() == false);
   CHECK(table["releases"][1]["wrong"] == 0);
   std::size_t of_distance = 0;
@@ -216,7 +217,7 @@ TEST_CASE("bisect release names the first bad release", "[npm][optional]") {
       key.substr(name.size()));
   INFO(skipped.out << skipped.err);
   REQUIRE(skipped.code == 0);
-  const Json j = Json::parse(skipped.out);
+  const Json j = parsed<Json>(skipped.out);
   CHECK(j["first_bad"] == "0.4.0");
   CHECK(j["good"].is_null());
   CHECK(j["skipped"] == Json{"0.0.9", "0.1.0"});

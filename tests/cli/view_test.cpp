@@ -5,6 +5,7 @@
 #include <string>
 
 #include "tests/support/catch.h"
+#include "tests/support/parsed.h"
 #include "tests/support/workspace.h"
 
 using touchstone::test::Workspace;
@@ -29,7 +30,7 @@ TEST_CASE("the page's pairs are those of a double loop over its boxes", "[cli][v
     INFO(scene);
     const auto r = w.touchstone("view " + scene + " --broad --json");
     REQUIRE(r.code == 0);
-    const Json data = Json::parse(r.out);
+    const Json data = touchstone::test::parsed<Json>(r.out);
     REQUIRE(data["methods"].size() == 4);
     for (const Json& f : data["frames"]) {
       Json expected = Json::array();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "core/math/roundoff.h"
 #include "core/narrow/mesh_contacts.h"
 #include "core/narrow/mesh_pairs.h"
 #include "core/narrow/pair_table.h"
@@ -187,7 +188,6 @@ TEST_CASE("two meshes: the unit of length does not matter", "[narrow][mesh]") {
 }
 
 TEST_CASE("bounds of two triangles contain the gap, and a certain crossing is one", "[narrow][mesh]") {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   const Pose origin;
   long crossings = 0, meeting = 0, narrow_bounds = 0, apart = 0;
   for (std::uint64_t i = 0; i < 6000; ++i) {

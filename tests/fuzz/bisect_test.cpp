@@ -8,6 +8,7 @@
 
 #include "tests/mutants/lying_engine.h"
 #include "tests/support/catch.h"
+#include "tests/support/parsed.h"
 #include "tests/support/skip.h"
 #include "tests/support/workspace.h"
 
@@ -44,7 +45,7 @@ std::string spheres() {
 nlohmann::json json_of(const Run& r) {
   INFO(r.err);
   REQUIRE(r.code == 0);
-  return nlohmann::json::parse(r.out);
+  return parsed<nlohmann::json>(r.out);
 }
 
 }  // namespace

@@ -18,6 +18,7 @@
 #include "tests/mutants/lying_engine.h"
 #include "tests/mutants/topics.h"
 #include "tests/support/catch.h"
+#include "tests/support/parsed.h"
 
 using namespace touchstone;
 using namespace touchstone::fuzz;
@@ -513,7 +514,7 @@ TEST_CASE("a bad box is stored in a case file beside the scene and read back, fo
   step_query(s);
   stored.c.queries = {{Question::candidates, -1, -1}};
   const std::string text = to_text(stored);
-  const Json j = Json::parse(text);
+  const Json j = test::parsed<Json>(text);
   CHECK(j == stored_case_to_json(stored));
   CHECK(j.at("invalid_numbers").dump() ==
         R"({"/shapes/3/half_extents/2":-1,"/bodies/0/pose/translation/1":"NaN",)"
@@ -531,6 +532,6 @@ TEST_CASE("a bad box is stored in a case file beside the scene and read back, fo
   refused("/bodies/0/pose/translation/1", "nan");
   refused("/shapes/3/half_extents/2", 1);
   Json other = j;
-  other["queries"] = Json::parse(R"([{"question": "overlap", "a": 0, "b": 1}])");
+  other["queries"] = test::parsed<Json>(R"([{"question": "overlap", "a": 0, "b": 1}])");
   CHECK_THROWS_AS(stored_case_from_json(other), InputError);
 }

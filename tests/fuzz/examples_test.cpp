@@ -14,6 +14,7 @@
 #include "scenarios/random/family.h"
 #include "tests/mutants/lying_engine.h"
 #include "tests/support/catch.h"
+#include "tests/support/parsed.h"
 #include "tests/support/stops_after.h"
 #include "tests/support/workspace.h"
 
@@ -55,7 +56,7 @@ std::string examples_of(const fuzz::CampaignResult& r) {
 }
 
 nlohmann::ordered_json state_in(const fs::path& campaign) {
-  return nlohmann::ordered_json::parse(test::read_all(campaign / "state.json"));
+  return test::parsed<nlohmann::ordered_json>(test::read_all(campaign / "state.json"));
 }
 
 }  // namespace
@@ -148,7 +149,7 @@ TEST_CASE("examples come back from a campaign's directory with their cases", "[e
 
   const auto& [key, f] = *back.findings.begin();
   const auto stored =
-      nlohmann::ordered_json::parse(test::read_all(config.out / "findings" / key / "finding.json"));
+      test::parsed<nlohmann::ordered_json>(test::read_all(config.out / "findings" / key / "finding.json"));
   REQUIRE(stored.at("examples").size() == f.examples.size());
   CHECK(stored.at("examples")[0] == fuzz::to_json(f.examples[0]));
 }

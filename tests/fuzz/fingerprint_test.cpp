@@ -9,6 +9,7 @@
 #include "core/base/input_error.h"
 #include "oracles/core/core_engine.h"
 #include "tests/support/catch.h"
+#include "tests/support/parsed.h"
 
 using namespace touchstone;
 using namespace touchstone::fuzz;
@@ -47,7 +48,7 @@ void unchanged(const Query&, Observation&) {}
 std::string text_of(const Fingerprint& f) { return to_json(f).dump(); }
 
 Fingerprint from_text(const std::string& text) {
-  const Json j = Json::parse(text);
+  const Json j = test::parsed<Json>(text);
   return fingerprint_from_json(JsonReader(j, "f.json"));
 }
 

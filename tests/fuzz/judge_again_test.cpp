@@ -21,6 +21,7 @@
 #include "scenarios/random/family.h"
 #include "tests/mutants/lying_engine.h"
 #include "tests/support/catch.h"
+#include "tests/support/parsed.h"
 #include "tests/support/stops_after.h"
 #include "tests/support/workspace.h"
 
@@ -200,7 +201,7 @@ TEST_CASE("kept answers are the same bytes for any number of jobs, after a stop,
     return all;
   };
   fuzz::run_campaign(stopped, stopping, {}, stop);
-  const auto state = nlohmann::json::parse(read_all(w.dir / "stopped/state.json"));
+  const auto state = test::parsed<nlohmann::json>(read_all(w.dir / "stopped/state.json"));
   CHECK_FALSE(state.at("finished").get<bool>());
   // Killed while it wrote a block whose end the state does not know.
   write(w.dir / "stopped/answers.bin", read_all(w.dir / "stopped/answers.bin") + "half a block");
@@ -230,7 +231,7 @@ TEST_CASE("kept answers are the same bytes for any number of jobs, after a stop,
 TEST_CASE("judging again names what changed against the stored result", "[judge-again]") {
   const Workspace w("judge-again");
   fuzz::run_campaign(config_of(w.dir, 64), engines, {}, go);
-  auto state = nlohmann::ordered_json::parse(read_all(w.dir / "state.json"));
+  auto state = test::parsed<nlohmann::ordered_json>(read_all(w.dir / "state.json"));
   auto& stored = state["result"];
   // As if an older version had not known one finding, had counted another twice, and had reported a third.
   auto& findings = stored["findings"];
@@ -341,7 +342,7 @@ TEST_CASE("a damaged file of answers is refused with file, byte and reason", "[j
   fs::remove(file);
   CHECK(has(reason_of(w.dir), "no such file"));
   // A resumed campaign refuses it too.
-  auto state = nlohmann::ordered_json::parse(read_all(w.dir / "state.json"));
+  auto state = test::parsed<nlohmann::ordered_json>(read_all(w.dir / "state.json"));
   state["finished"] = false;
   write(w.dir / "state.json", state.dump());
   CHECK_THROWS_AS(fuzz::run_campaign(config_of(w.dir, 64), engines, {}, go), InputError);
@@ -356,7 +357,7 @@ TEST_CASE("a damaged file of answers is refused with file, byte and reason", "[j
   CHECK(read_all(file) == good);
   CHECK_NOTHROW(fuzz::run_campaign(config_of(w.dir, 64), engines, {}, go));
   CHECK(reason_of(w.dir).empty());
-  state = nlohmann::ordered_json::parse(read_all(w.dir / "state.json"));
+  state = test::parsed<nlohmann::ordered_json>(read_all(w.dir / "state.json"));
   state["result"]["cases"] = 65;
   write(w.dir / "state.json", state.dump());
   CHECK(has(reason_of(w.dir), "holds the answers to 64 cases, but the campaign has judged 65"));

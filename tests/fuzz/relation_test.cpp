@@ -182,7 +182,7 @@ TEST_CASE("derived cases stay within the range of doubles, or are not asked", "[
   Scene beyond = far;
   beyond.bodies[1].pose.translation = {1.5e308, 0, 0};
   CHECK(!fuzz::is_within_numbers(far, beyond));
-  beyond.bodies[1].pose.translation = {fuzz::infinity, 0, 0};
+  beyond.bodies[1].pose.translation = {infinity, 0, 0};
   CHECK(!fuzz::is_within_numbers(beyond, beyond));
 }
 
@@ -262,7 +262,7 @@ TEST_CASE("only a time within the step is compared with the poses within the ste
   const auto derived = derived_from(0.5);
   REQUIRE(derived.size() == 6);
   for (const fuzz::Derived& d : derived) CHECK(d.c.scene.bodies[1].pose.translation.x() >= 2);
-  for (const double outside : {-0.5, 1.5, -std::numeric_limits<double>::infinity(), fuzz::infinity,
+  for (const double outside : {-0.5, 1.5, -std::numeric_limits<double>::infinity(), infinity,
                                std::numeric_limits<double>::quiet_NaN()}) {
     INFO(outside);
     CHECK(derived_from(outside).empty());

@@ -21,6 +21,7 @@
 #include "tests/mutants/lying_engine.h"
 #include "tests/support/catch.h"
 #include "tests/support/causes_by_hand.h"
+#include "tests/support/parsed.h"
 #include "tests/support/skip.h"
 #include "tests/support/workspace.h"
 
@@ -38,7 +39,7 @@ std::map<std::string, std::string> files_of(const fs::path& campaign) {
     for (const auto& e : fs::recursive_directory_iterator(campaign / "findings"))
       if (e.is_regular_file()) r[fs::relative(e.path(), campaign).string()] = read_all(e.path());
   for (const char* name : {"state.json", "summary.json"}) {
-    auto j = nlohmann::ordered_json::parse(read_all(campaign / name));
+    auto j = test::parsed<nlohmann::ordered_json>(read_all(campaign / name));
     auto& result = j.contains("result") ? j["result"] : j;
     result.erase("times");
     for (auto& [engine, questions] : result["engines"].items())
@@ -120,7 +121,7 @@ TEST_CASE("merged shards are the unsharded campaign, byte for byte but for times
   CHECK(files_of(w.dir / "c") == whole);
   SECTION("a key that names another directory is refused, and nothing is written") {
     const fs::path file = s[0] / "state.json";
-    auto j = nlohmann::ordered_json::parse(read_all(file));
+    auto j = test::parsed<nlohmann::ordered_json>(read_all(file));
     auto& findings = j["result"]["findings"];
     REQUIRE_FALSE(findings.empty());
     findings["../../victim"] = nlohmann::ordered_json(findings.begin().value());

@@ -16,6 +16,7 @@
 #include "reports/text/record_text.h"
 #include "scenarios/codec/case_codec.h"
 #include "tests/support/catch.h"
+#include "tests/support/parsed.h"
 
 using namespace touchstone;
 using namespace touchstone::fuzz;
@@ -448,8 +449,8 @@ TEST_CASE("a cause's directory has its case, finding, certificate, issue and pro
     return std::string(std::istreambuf_iterator<char>(f), {});
   };
   CHECK(load_stored_case(to / "case.json").c.scene.name == "small");
-  CHECK(Json::parse(text("certificate.json")) == c.certificate);
-  CHECK(Json::parse(text("finding.json")).at("key") == c.smallest.key);
+  CHECK(test::parsed<Json>(text("certificate.json")) == c.certificate);
+  CHECK(test::parsed<Json>(text("finding.json")).at("key") == c.smallest.key);
   CHECK(text("issue.md") == "# " + c.title + "\n");
   CHECK(text("reproduce.cpp") == c.program);
   CHECK_FALSE(fs::exists(to / "no_reproducer.txt"));

@@ -12,6 +12,7 @@
 #include "scenarios/codec/case_codec.h"
 #include "scenarios/codec/json_file.h"
 #include "tests/support/catch.h"
+#include "tests/support/parsed.h"
 #include "tests/support/workspace.h"
 
 using namespace touchstone;
@@ -698,7 +699,7 @@ TEST_CASE("faults that the mutator found", "[hostile]") {
   // Sixteen characters that the library accepted as hexadecimal, or for which it threw its own exception.
   REQUIRE(w.touchstone("certify --subject sort_and_sweep --limit 2 --jobs 1 -o c.json").code == 0);
   for (const char* digest : {"-00000000000000f", "zzzzzzzzzzzzzzzz", " 0x0000000000001"}) {
-    Json j = Json::parse(read_all(w.dir / "c.json"));
+    Json j = parsed<Json>(read_all(w.dir / "c.json"));
     j["digest"] = digest;
     w.write("d.json", j.dump());
     const Run r = w.touchstone("certify --check d.json");

@@ -8,6 +8,7 @@
 
 #include "library/touchstone.h"
 #include "tests/support/catch.h"
+#include "tests/support/parsed.h"
 
 namespace {
 
@@ -60,7 +61,7 @@ TEST_CASE("an answer of the library is certified, and its certificates are check
   char* text = nullptr;
   REQUIRE(touchstone_answer(box.shape, nullptr, nullptr, cylinder.shape, pose, falls, &text) ==
           TOUCHSTONE_OK);
-  const auto j = nlohmann::json::parse(text);
+  const auto j = touchstone::test::parsed<nlohmann::json>(text);
   touchstone_free_text(text);
   INFO(j.dump());
   CHECK(j["certified"] == true);
@@ -101,7 +102,7 @@ TEST_CASE("the library judges what an engine says, and gives the reason", "[libr
   char* why = nullptr;
   REQUIRE(touchstone_explain(box.shape, nullptr, nullptr, ball.shape, above, nullptr, &says[1], 0, 0, &why) ==
           TOUCHSTONE_OK);
-  const auto j = nlohmann::json::parse(why);
+  const auto j = touchstone::test::parsed<nlohmann::json>(why);
   touchstone_free_text(why);
   REQUIRE(j["faults"].size() == 1);
   CHECK(j["faults"][0]["words"] == "says 0; the signed distance is 0.25");

@@ -11,6 +11,7 @@
 #include "oracles/host/pipe_answer.h"
 #include "oracles/host/pipe_batch.h"
 #include "tests/support/catch.h"
+#include "tests/support/parsed.h"
 
 using namespace touchstone;
 using host::BatchAnswers;
@@ -92,7 +93,7 @@ TEST_CASE("a batch is a line and arrays of the sizes that the line states", "[or
     const Sample s(q);
     const std::string message = host::batch_message(s.batch);
     const std::size_t end = message.find('\n');
-    const Json line = Json::parse(message.substr(0, end));
+    const Json line = test::parsed<Json>(message.substr(0, end));
     const bool moving = q == Question::time_of_impact;
     CHECK(line == Json({{"ask_many", std::string(to_string(q))},
                         {"count", 3},
@@ -172,7 +173,7 @@ TEST_CASE("a batch's answer that cannot be is refused", "[oracles][pipe][batch][
         R"({"answers": 3, "fields": [], "details": ["one"]})",
         R"({"answers": 3, "fields": [], "points": "x"})"}) {
     INFO(line);
-    CHECK_THROWS_AS(BatchAnswers(Json::parse(line), s.batch), std::exception);
+    CHECK_THROWS_AS(BatchAnswers(test::parsed<Json>(line), s.batch), std::exception);
   }
   for (const double bad : {2.0, 0.5, -1.0, static_cast<double>(NAN)}) {
     std::vector<ts_answer> answers(3, blank_answer());

@@ -8,12 +8,13 @@
 #include "scenarios/codec/value_codec.h"
 #include "tests/referee/support.h"
 #include "tests/support/catch.h"
+#include "tests/support/parsed.h"
 
 namespace touchstone::referee_test {
 namespace {
 
 Certificate stored(const Certificate& c) {
-  return certificate_from_json(nlohmann::ordered_json::parse(to_json(c).dump()));
+  return certificate_from_json(test::parsed<nlohmann::ordered_json>(to_json(c).dump()));
 }
 
 Pose random_pose(Rng& r, double spread) {
@@ -273,7 +274,7 @@ TEST_CASE("what is not a certificate is bad input", "[referee][checker]") {
                            R"({"kind": "common_point", "point": [1, 2, "x"]})",
                            R"({"kind": "separating_plane", "direction": [1, 0, 0]})",
                            R"({"kind": "inner_polytope", "offset": 1})"})
-    REQUIRE_THROWS_AS(certificate_from_json(nlohmann::ordered_json::parse(text)), InputError);
+    REQUIRE_THROWS_AS(certificate_from_json(test::parsed<nlohmann::ordered_json>(text)), InputError);
 }
 
 TEST_CASE("a rational has a denominator of 1 or more, lowest terms or not, and a bounded length",

@@ -10,6 +10,7 @@
 #include "scenarios/codec/value_codec.h"
 #include "tests/referee/support.h"
 #include "tests/support/catch.h"
+#include "tests/support/parsed.h"
 
 namespace touchstone::referee_test {
 namespace {
@@ -21,7 +22,7 @@ Motion moving(const Vec3& v, const Vec3& w = Vec3::Zero()) { return {v, w}; }
 const Motion rest{};
 
 ImpactCertificate stored(const ImpactCertificate& c) {
-  return impact_certificate_from_json(nlohmann::ordered_json::parse(to_json(c).dump()));
+  return impact_certificate_from_json(test::parsed<nlohmann::ordered_json>(to_json(c).dump()));
 }
 
 double time_of(const ImpactCertificate::Contact& c) { return rational_from_text(c.t).convert_to<double>(); }

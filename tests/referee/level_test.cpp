@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/math/roundoff.h"
 #include "oracles/checker/checker.h"
 #include "oracles/referee/counters.h"
 #include "oracles/referee/exact/exact_point.h"
@@ -300,7 +301,6 @@ TEST_CASE("a point of a curved body: integers of 512 bits and the checker's rati
 TEST_CASE("a question that takes too much work is left undecided with a note, never guessed",
           "[referee][work]") {
   Rng r(71);
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   std::size_t open = 0;
   for (const std::int64_t limit : {0, 300, 3000, 30000, 300000})
     for (int i = 0; i < 60; ++i) {

@@ -1,6 +1,7 @@
 // Rays at cylinders, cones and ellipsoids, which are decided exactly: closed forms at exact touch and one ulp
 // to either side of it, where the path grazes a side, an end, a rim, an apex, and where it starts or ends.
 #include "oracles/referee/exact/ray.h"
+#include "core/math/roundoff.h"
 #include "oracles/checker/checker.h"
 #include "tests/referee/support.h"
 #include "tests/support/catch.h"
@@ -9,8 +10,6 @@ namespace touchstone::referee_test {
 namespace {
 
 using Hit = TimeTruth::Verdict;
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 /// A path in the body's own coordinates that shares one point with the body, at time `touch`. Moving its
 /// start by an ulp along `outward` makes it miss, and against it hit.
 struct Touch {

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "tests/support/workspace.h"
+#include "scenarios/codec/scene_codec.h"
 
 namespace touchstone::test {
 namespace {
@@ -18,7 +18,7 @@ using fuzz::Severity;
 CauseCase corpus_case(const std::string& name, const std::string& engine, const std::string& key,
                       const std::string& words, double error, CaseSize size) {
   const auto file = std::filesystem::path(TS_SOURCE_DIR) / "scenarios/corpus" / (name + ".json");
-  return {engine, key, Json::parse(read_all(file)), words, error, size};
+  return {engine, key, Json::parse(read_file(file)), words, error, size};
 }
 
 // A short program as the reproducers are.

@@ -17,6 +17,7 @@
 #include "reports/chart/sub_steps.h"
 #include "reports/stability/stability.h"
 #include "tests/support/catch.h"
+#include "tests/support/parsed.h"
 #include "tests/support/skip.h"
 #include "tests/support/workspace.h"
 
@@ -215,7 +216,7 @@ TEST_CASE("the core is sound on the chart's cases, and an engine that denies con
   }
   CHECK(core > 400);
   CHECK(denied > 200);  // of 420, in which two regimes and half of another overlap
-  const Json j = Json::parse(fuzz::to_json(chart).dump());
+  const Json j = test::parsed<Json>(fuzz::to_json(chart).dump());
   const std::string csv = to_csv(chart);
   CHECK(j["rows"].size() == chart.rows.size());
   CHECK(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')) == chart.rows.size() + 1);
@@ -388,7 +389,7 @@ Json corpus_answer(const std::string& file, const std::string& engine, const std
       w.touchstone("replay " TS_SOURCE_DIR "/scenarios/corpus/" + file + " --json --engines " + engine);
   INFO(r.err);
   REQUIRE(r.code <= 1);
-  const Json cases = Json::parse(r.out);
+  const Json cases = test::parsed<Json>(r.out);
   for (const Json& q : cases[0]["queries"])
     if (q["question"] == question) return q["engines"][engine]["answer"];
   return Json();
@@ -445,7 +446,7 @@ TEST_CASE("stability follows motions, and the motion of a scenario", "[cli][stab
   std::istringstream lines(all.out);
   for (std::string line; std::getline(lines, line);)
     CHECK((line.size() <= 80 || line.starts_with("exit code")));
-  const Json motions = Json::parse(read_all(w.dir / "m/motions.json"));
+  const Json motions = test::parsed<Json>(read_all(w.dir / "m/motions.json"));
   CHECK(motions["results"].size() == motions["rows"].size());
   for (const Json& r : motions["results"]) {
     CHECK(r["frames"] == 4);
@@ -455,7 +456,7 @@ TEST_CASE("stability follows motions, and the motion of a scenario", "[cli][stab
   CHECK(read_all(w.dir / "m/motions.csv").starts_with("motion,engine,motions,frames,answers"));
   const auto one = w.touchstone("stability --motion slides_off_a_table --engines core --json --out o");
   CHECK(one.code == 0);
-  CHECK(Json::parse(one.out)["results"][0]["switches"] == 1);
+  CHECK(test::parsed<Json>(one.out)["results"][0]["switches"] == 1);
   const auto none = w.touchstone("stability --motion drake-1668-cubes-corner-overlap --engines core --out n");
   CHECK(none.code == 2);
   CHECK(none.err.find("is no motion") != std::string::npos);
@@ -468,14 +469,14 @@ TEST_CASE("chart and stability write text, CSV and JSON, with or without a page"
   INFO(s.err);
   CHECK(s.code == 0);
   CHECK(s.out.find("angle: faces out of parallel") != std::string::npos);
-  CHECK(Json::parse(read_all(w.dir / "s/stability.json"))["results"].size() == 3);
+  CHECK(test::parsed<Json>(read_all(w.dir / "s/stability.json"))["results"].size() == 3);
   CHECK(read_all(w.dir / "s/stability.csv").starts_with("ladder,engine,question,value"));
   const auto c = w.touchstone("chart --quick --engines core --broad grid --measure 0 --out c");
   INFO(c.out << c.err);
   CHECK(c.code == 0);
   std::istringstream lines(c.out);
   for (std::string line; std::getline(lines, line);) CHECK(line.size() <= 80);
-  const Json chart = Json::parse(read_all(w.dir / "c/chart.json"));
+  const Json chart = test::parsed<Json>(read_all(w.dir / "c/chart.json"));
   CHECK(chart["rows"].size() > 100);
   CHECK(chart["machine"]["cores"].get<int>() > 0);
   CHECK(w.touchstone("stability --ladder nothing --engines core").code == 2);

@@ -16,6 +16,7 @@
 #include "scenarios/codec/json_file.h"
 #include "tests/reports/cause_sample.h"
 #include "tests/support/catch.h"
+#include "tests/support/parsed.h"
 #include "tests/support/skip.h"
 #include "tests/support/workspace.h"
 
@@ -75,7 +76,7 @@ std::string pictures_directory() {
 // Repeats the findings of a campaign with other shapes and numbers until there are `count`.
 void many_findings(const fs::path& from, const fs::path& to, std::size_t count) {
   using Sorted = nlohmann::json;
-  Sorted summary = Sorted::parse(read_all(from));
+  Sorted summary = touchstone::test::parsed<Sorted>(read_all(from));
   const std::vector<Sorted> base(summary["findings"].begin(), summary["findings"].end());
   REQUIRE(base.size() > 10);
   std::mt19937_64 random(5);
@@ -207,9 +208,9 @@ TEST_CASE("the page of assess shows the robot and what engines get wrong, in a b
 TEST_CASE("the pages can be built and tested with Debian 12's Node 18 and npm 9", "[pages]") {
   const fs::path web = TS_SOURCE_DIR "/reports/web";
   // npm 9 cannot read an alias ("npm:…") among overrides: npm ci ends with "Invalid comparator".
-  CHECK_FALSE(Json::parse(read_all(web / "package.json")).contains("overrides"));
+  CHECK_FALSE(touchstone::test::parsed<Json>(read_all(web / "package.json")).contains("overrides"));
   int asked = 0;
-  const Json lock = Json::parse(read_all(web / "package-lock.json"));
+  const Json lock = touchstone::test::parsed<Json>(read_all(web / "package-lock.json"));
   for (const auto& [name, package] : lock["packages"].items()) {
     if (package.value("optional", false) || !package.contains("engines")) continue;
     const std::string node = package["engines"].value("node", ">=18");
@@ -239,14 +240,15 @@ TEST_CASE("without built pages the data is kept and one line names what is missi
   CHECK(r.err.find("./touchstone pages --install") != std::string::npos);
   CHECK(std::count(r.err.begin(), r.err.end(), '\n') == 1);
   CHECK_FALSE(fs::exists(w.dir / "page.html"));
-  const Json j = Json::parse(read_all(w.dir / "page.json"));
+  const Json j = touchstone::test::parsed<Json>(read_all(w.dir / "page.json"));
   CHECK(j["queries"].size() == 3);
   CHECK(j["queries"][2]["engines"]["core"]["right"] == true);
   const auto b = w.run("bin/touchstone view swap_places --broad --json -o broad.html");
   CHECK(b.code == 3);
   CHECK(b.err.find("./touchstone pages --install") != std::string::npos);
   CHECK_FALSE(fs::exists(w.dir / "broad.html"));
-  CHECK(Json::parse(read_all(w.dir / "broad.json")) == Json::parse(b.out));  // nothing is rounded
+  CHECK(touchstone::test::parsed<Json>(read_all(w.dir / "broad.json")) ==
+        touchstone::test::parsed<Json>(b.out));  // nothing is rounded
   const auto s = w.run("bin/touchstone stability --quick --ladder angle --engines core --out s");
   CHECK(s.code == 0);
   CHECK(fs::exists(w.dir / "s/stability.json"));
@@ -286,7 +288,7 @@ TEST_CASE("long data is stored in a page compressed and decompresses to the same
     const std::string page = web_page(shell, json);
     CHECK(page.size() < json.size());
     CHECK(page.rfind("<script>{\"deflate\":\"", 0) == 0);
-    const std::string packed = Json::parse(deflated(json))["deflate"];
+    const std::string packed = touchstone::test::parsed<Json>(deflated(json))["deflate"];
     CHECK(packed.size() % 4 == 0);
     CHECK(inflated(packed) == json);
     json.insert(1, "1,");
@@ -307,7 +309,8 @@ TEST_CASE("the data of a page is read back as it was, and damaged data is refuse
     CHECK(data_of_page(web_page(shell, json), "x").value() == json);
     json.insert(1, "1,");
   }
-  CHECK(Json::parse(data_of_page(web_page(shell, R"(["</script>"])"), "x").value())[0] == "</script>");
+  CHECK(touchstone::test::parsed<Json>(data_of_page(web_page(shell, R"(["</script>"])"), "x").value())[0] ==
+        "</script>");
   CHECK_FALSE(data_of_page("<html></html>", "x").has_value());
   const std::string page = web_page(shell, json);
   CHECK_THROWS_AS(data_of_page(page, "x", json.size() - 1), InputError);

@@ -10,6 +10,7 @@
 #include "reports/plan/plan_measure.h"
 #include "reports/text/record_text.h"
 #include "tests/support/catch.h"
+#include "tests/support/parsed.h"
 
 using namespace touchstone;
 using namespace touchstone::fuzz;
@@ -73,7 +74,7 @@ TEST_CASE("a plan holds on its scene and can be run from its JSON", "[plan]") {
   for (const PlanRow& r : p.rows)
     if (r.name.find("none swept") != std::string::npos) CHECK_FALSE(r.sound());
 
-  const Json j = Json::parse(to_json(p).dump());
+  const Json j = test::parsed<Json>(to_json(p).dump());
   PlanOptions again = quick(0);
   again.given = fidelity_from_json(j.at("run"), "run");
   CHECK(to_json(*again.given) == p.run);

@@ -8,6 +8,7 @@
 #include "core/base/input_error.h"
 #include "reports/text/record_text.h"
 #include "tests/support/catch.h"
+#include "tests/support/parsed.h"
 #include "tests/support/skip.h"
 #include "tests/support/workspace.h"
 
@@ -21,7 +22,9 @@ namespace {
 const std::string findings_file = TS_SOURCE_DIR "/docs/findings.md",
                   chart_file = TS_SOURCE_DIR "/docs/chart.json";
 
-fuzz::Chart kept_chart() { return fuzz::chart_from_json(Json::parse(read_all(chart_file)), chart_file); }
+fuzz::Chart kept_chart() {
+  return fuzz::chart_from_json(test::parsed<Json>(read_all(chart_file)), chart_file);
+}
 
 struct Claim {
   std::string engine, question, fault, file;
@@ -90,7 +93,7 @@ TEST_CASE("every fault in the table of findings is shown by its case, and has a 
     INFO(c.engine << " " << c.question << " " << c.fault << " " << c.file);
     if (engines.find(c.engine + " ") == std::string::npos) continue;  // its library is not installed
     const auto r = w.touchstone("replay " + c.file + " --case-seconds 0.3 --json --engines " + c.engine);
-    const Json cases = Json::parse(r.out);
+    const Json cases = test::parsed<Json>(r.out);
     bool found = false;
     for (const Json& q : cases[0]["queries"]) {
       if (q["question"] != c.question) continue;

@@ -12,6 +12,7 @@
 #include "scenarios/codec/value_codec.h"
 #include "scenarios/random/family.h"
 #include "tests/support/catch.h"
+#include "tests/support/parsed.h"
 #include "tests/support/skip.h"
 #include "tests/support/workspace.h"
 
@@ -77,7 +78,7 @@ Json tampered(const Json& certificate, Rng& rng) {
 
 // Reads it from its text, as every reader does.
 std::string ruling_of(const Json& certificate, const Scene& s) {
-  const Json j = Json::parse(certificate.dump());
+  const Json j = test::parsed<Json>(certificate.dump());
   const Placed a{&s.shape_of(0), s.bodies[0].pose}, b{&s.shape_of(1), s.bodies[1].pose};
   try {
     const bool good = j.at("kind") == "impact" ? checker::check(impact_certificate_from_json(j), a,

@@ -1,10 +1,6 @@
 // A temporary directory for a test that runs the program as a user does.
 #pragma once
 
-#include <sys/wait.h>
-#include <unistd.h>
-
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -16,36 +12,17 @@ struct Run {
   std::string out, err;
 };
 
-inline std::string read_all(const std::filesystem::path& p) {
-  std::ifstream f(p, std::ios::binary);
-  return {std::istreambuf_iterator<char>(f), {}};
-}
+std::string read_all(const std::filesystem::path& p);
 
 struct Workspace {
   std::filesystem::path dir;
-  explicit Workspace(const std::string& name)
-      : dir(std::filesystem::temp_directory_path() /
-            ("touchstone-" + name + "-" + std::to_string(getpid()))) {
-    std::filesystem::remove_all(dir);
-    std::filesystem::create_directories(dir);
-  }
-  ~Workspace() { std::filesystem::remove_all(dir); }
-  std::filesystem::path write(const std::string& name, const std::string& text) const {
-    std::ofstream(dir / name) << text;
-    return dir / name;
-  }
+  explicit Workspace(const std::string& name);
+  ~Workspace();
+  std::filesystem::path write(const std::string& name, const std::string& text) const;
   /// `before`: a command prefix, such as timeout.
-  Run touchstone(const std::string& args, const std::string& before = "") const {
-    return run(before + " " TS_BINARY_DIR "/bin/touchstone " + args);
-  }
+  Run touchstone(const std::string& args, const std::string& before = "") const;
   /// Runs a shell command line in the directory. Code -1: ended by a signal.
-  Run run(const std::string& line) const {
-    const std::string command = "cd " + dir.string() + " && (" + line + ") >" + (dir / "out.txt").string() +
-                                " 2>" + (dir / "err.txt").string() + " </dev/null";
-    const int status = std::system(command.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_all(dir / "out.txt"),
-            read_all(dir / "err.txt")};
-  }
+  Run run(const std::string& line) const;
 };
 
 }  // namespace touchstone::test

@@ -15,13 +15,13 @@
 #include <string>
 #include <thread>
 
+#include "core/math/roundoff.h"
 #include "tests/zoo/zoo.h"
 
 namespace touchstone::zoo {
 namespace {
 
 constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double up[3] = {0, 0, 1};
 
 void all_numbers(ts_answer* a, double x) {

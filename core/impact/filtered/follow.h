@@ -13,6 +13,7 @@
 
 #include "core/impact/filtered/look.h"
 #include "core/impact/turning_bound.h"
+#include "core/math/axis_rotation.h"
 
 namespace touchstone::impact::filtered {
 

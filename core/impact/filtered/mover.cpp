@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "core/math/axis_rotation.h"
+
 namespace touchstone::impact::filtered {
 namespace {
 

@@ -1,7 +1,7 @@
 #include "oracles/referee/exact/polynomial.h"
+#include "core/math/roundoff.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace touchstone::referee {
 namespace {
@@ -163,7 +163,6 @@ int compare(Root a, Root b) {
 
 void enclose(Root r, double& lo, double& hi) {
   // mpq_get_d rounds towards zero, and every root is >= 0.
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   for (;;) {
     hi = r.hi.convert_to<double>();
     if (exact(hi) < r.hi) hi = std::nextafter(hi, infinity);

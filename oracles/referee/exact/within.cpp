@@ -115,7 +115,6 @@ bool within_of_half_space(const RationalPlane& h, const ExactBody& body, double 
   return is_at_most(*least, exact(margin) + exact(body.radius), dot(h.normal, h.normal));
 }
 
-bool is_mesh(const Placed& p) { return std::holds_alternative<TriangleMesh>(*p.shape); }
 bool is_half_space(const Placed& p) { return std::holds_alternative<HalfSpace>(*p.shape); }
 
 Verdict verdict_of(bool within) { return within ? Verdict::overlap : Verdict::disjoint; }
@@ -189,13 +188,13 @@ Verdict decide_within(const Placed& a, const Placed& b, double margin, const Pai
   if (truth.gap.hi <= margin) return Verdict::overlap;
   if (margin == 0) return truth.verdict;
   // An overlapping mesh has no depth to compare with the margin.
-  if (margin < 0 && (is_mesh(a) || is_mesh(b)))
+  if (margin < 0 && (is<TriangleMesh>(a) || is<TriangleMesh>(b)))
     return truth.verdict == Verdict::disjoint ? Verdict::disjoint : Verdict::undecided;
   Verdict v = is_half_space(a)   ? half_space_within(a, b, margin)
               : is_half_space(b) ? half_space_within(b, a, margin)
                                  : any_within(a, b, margin);
-  if (v == Verdict::undecided && margin > 0 && !is_half_space(a) && !is_half_space(b) && !is_mesh(a) &&
-      !is_mesh(b) && has_near_points(a, b, margin, truth))
+  if (v == Verdict::undecided && margin > 0 && !is_half_space(a) && !is_half_space(b) &&
+      !is<TriangleMesh>(a) && !is<TriangleMesh>(b) && has_near_points(a, b, margin, truth))
     v = verdict_of(true);
   return v;
 }

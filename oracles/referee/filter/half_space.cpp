@@ -2,14 +2,13 @@
 
 #include <algorithm>
 
+#include "core/math/roundoff.h"
 #include "oracles/referee/counters.h"
 #include "oracles/referee/exact/exact_pair.h"
 #include "oracles/referee/work.h"
 
 namespace touchstone::referee {
 namespace {
-
-constexpr Real infinity = std::numeric_limits<Real>::infinity();
 
 // A normal turned by a matrix, relative to the largest entries of both: three components, each a dot product.
 constexpr Real turned_normal_rounding = 12 * unit;

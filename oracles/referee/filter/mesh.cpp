@@ -1,3 +1,4 @@
+#include "core/math/roundoff.h"
 #include "oracles/referee/filter/convex.h"
 
 #include <algorithm>
@@ -9,7 +10,6 @@
 namespace touchstone::referee {
 namespace {
 
-constexpr Real infinity = std::numeric_limits<Real>::infinity();
 constexpr Real box_rounding = 0x1p-48L;  // more than a dozen roundings of 2^-64
 
 // Lower and upper bound of the distance of two closed sets inside these boxes, whether or not the sets touch

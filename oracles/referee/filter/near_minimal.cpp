@@ -33,11 +33,6 @@ struct Minimum {
   Real value;
 };
 
-template <class S>
-bool is(const Placed& p) {
-  return std::holds_alternative<S>(*p.shape);
-}
-
 /// Evenly spread: the golden-angle spiral.
 Real3 direction(int i) {
   const Real z = 1 - (2 * i + 1.0L) / starts, r = std::sqrt(1 - z * z), angle = i * golden_angle;

@@ -1,6 +1,7 @@
 // judge_pair: a pair of any two shapes, assembled from convex parts.
 #include <algorithm>
 
+#include "core/math/roundoff.h"
 #include "oracles/referee/certificate.h"
 #include "oracles/referee/counters.h"
 #include "oracles/referee/exact/exact_point.h"
@@ -12,11 +13,6 @@
 
 namespace touchstone::referee {
 namespace {
-
-template <class S>
-bool is(const Placed& p) {
-  return std::holds_alternative<S>(*p.shape);
-}
 
 PairTruth common_part(const ConvexTruth& t, const Vec3& origin) {
   PairTruth r;
@@ -206,7 +202,6 @@ PairTruth judge(const Placed& a, const Placed& b, std::span<const Vec3> hint_dir
 // Where surfaces do not meet, one body may be inside the other. A surface that is no solid's has no depth.
 PairTruth judge_solids(const Placed& a, const Placed& b, std::span<const Vec3> hint_directions,
                        std::span<const Vec3> hint_points) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   const AsHulls hulls(a, b);
   const Placed &x = hulls.a(), &y = hulls.b();
   if (hulls.are_plain()) return judge(x, y, hint_directions, hint_points);
@@ -228,7 +223,6 @@ PairTruth judge_solids(const Placed& a, const Placed& b, std::span<const Vec3> h
 }
 
 PairTruth nothing_known() {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   PairTruth r;
   r.gap = {-infinity, infinity};
   r.witness.fill(Vec3::Zero());

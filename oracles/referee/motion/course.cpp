@@ -20,13 +20,13 @@
 
 #include <algorithm>
 
+#include "core/math/roundoff.h"
 #include "oracles/referee/exact/exact_pair.h"
 #include "oracles/referee/filter/half_space.h"
 
 namespace touchstone::referee {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 // Covers the rounding of the bounds that are multiplied by it.
 constexpr Real rounding_factor = 1 + 0x1p-40L;
 // Covers the rounding of a quotient and a sum in a step in time.

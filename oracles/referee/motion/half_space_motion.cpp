@@ -3,6 +3,7 @@
 // normal) that is not the same for both ends the separation at once: the normals m_A(t) and -m_B(t) are
 // analytic and differ in the first or second derivative at 0 unless ω is the same, so they differ at all
 // small t > 0. Then the half-spaces overlap: the first contact is at 0, as an infimum.
+#include "core/math/roundoff.h"
 #include "oracles/referee/motion/motion.h"
 
 #include <limits>
@@ -11,8 +12,6 @@
 
 namespace touchstone::referee {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Room between two that face each other at t = 0 and its rate of change, both times the length of A's
 /// normal.
@@ -72,7 +71,8 @@ TimeTruth judge_half_spaces_in_motion(const Placed& a, const Motion& motion_a, c
   if (!room || room->start <= 0) return hit_between(0, 0, "overlap at the start");
   const Vec3 turn_a = visible_turn(a, motion_a.angular), turn_b = visible_turn(b, motion_b.angular);
   if (turn_a != turn_b)
-    return hit_between(0, std::numeric_limits<double>::denorm_min(), "they face each other only at the start");
+    return hit_between(0, std::numeric_limits<double>::denorm_min(),
+                       "they face each other only at the start");
   if (!turn_a.isZero(0)) return undecided("two half-spaces that turn alike are not judged in motion");
   const Rational end = room->start + room->rate;
   if (end > 0) return apart_throughout(scaled(std::min(room->start, end), room->normal));

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 
+#include "core/math/roundoff.h"
 #include "oracles/referee/limits.h"
 #include "oracles/referee/solid/solid.h"
 #include "oracles/referee/work.h"
@@ -20,7 +21,6 @@ namespace touchstone::referee {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 // Newton's steps towards a first contact; the sweeps bracket what they leave.
 constexpr int newton_steps = 64;
 // Halvings of a bracket within [0, 1], which ends earlier when its ends are neighbouring doubles.
@@ -273,11 +273,6 @@ TimeTruth judge_course(Course& c, double end) {
   const ConvexTruth start = c.at(0);
   if (start.verdict == Verdict::overlap) return hit_between(0, 0, "overlap at the start");
   return judge_rotation(c, end);
-}
-
-template <class S>
-bool is(const Placed& p) {
-  return std::holds_alternative<S>(*p.shape);
 }
 
 TimeTruth join(const TimeTruth& x, const TimeTruth& y) {

@@ -1,13 +1,12 @@
 // Boxes of bodies in motion, rounded outward.
 #include <algorithm>
 
+#include "core/math/roundoff.h"
 #include "oracles/referee/filter/convex.h"
 #include "oracles/referee/motion/motion.h"
 #include "oracles/referee/solid/solid.h"
 
 namespace touchstone::referee {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Aabb box_over(const Mover& m, const Vec3& origin) {
   if (!m.spins()) return box_of(m.swept(0, 1, origin).body);

@@ -1,6 +1,7 @@
 // The gap at one time of a motion, and the deepest time of a step.
 #include <algorithm>
 
+#include "core/math/roundoff.h"
 #include "oracles/referee/filter/convex.h"
 #include "oracles/referee/limits.h"
 #include "oracles/referee/motion/motion.h"
@@ -9,13 +10,6 @@
 
 namespace touchstone::referee {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-template <class S>
-bool is(const Placed& p) {
-  return std::holds_alternative<S>(*p.shape);
-}
 
 std::vector<Mover> movers(const Placed& p, const Motion& m, const Vec3& minus) {
   const auto* mesh = std::get_if<TriangleMesh>(p.shape);

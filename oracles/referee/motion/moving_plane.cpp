@@ -13,12 +13,12 @@
 
 #include <algorithm>
 
+#include "core/math/roundoff.h"
 #include "oracles/referee/exact/exact_pair.h"
 
 namespace touchstone::referee {
 namespace {
 
-constexpr Real infinity = std::numeric_limits<Real>::infinity();
 // Slack over the checker's own test, so that what holds here also holds there.
 constexpr Real rounding_factor = 1 + 0x1p-30L;
 // The shortest step in time that is tried.

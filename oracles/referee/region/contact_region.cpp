@@ -208,11 +208,6 @@ ContactRegion region_on_half_space(const Placed& other, const Vec3& out_of_other
                    origin);
 }
 
-template <class S>
-bool is(const Placed& p) {
-  return std::holds_alternative<S>(*p.shape);
-}
-
 }  // namespace
 
 ContactRegion contact_region(const Placed& a, const Placed& b, const Vec3& normal_ab, double slack) {

@@ -5,14 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/math/roundoff.h"
 #include "oracles/referee/filter/convex.h"
 #include "oracles/referee/solid/solid.h"
 #include "oracles/referee/work.h"
 
 namespace touchstone::referee {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // Directions for which a way out is looked for, steps along one of them, and steps of the proof that no place
 // before is clear. More of them narrow a bracket.

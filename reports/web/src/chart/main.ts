@@ -122,7 +122,8 @@ function draw(): void {
 }
 
 function drawTable(list: Row[]): void {
-  const head = ["engine", "", "answers", "median", "99 %", "± rounds", "error p50", "p99", "most", "missed", "ghost", "failed", "wrong", "reason it is not on the front"];
+  const accuracy = question.value === "candidates" ? ["", "precision", ""] : ["error p50 / L", "p99 / L", "most / L"];
+  const head = ["engine", "", "answers", "median", "99 %", "± rounds", ...accuracy, "missed", "ghost", "failed", "wrong", "reason it is not on the front"];
   const e = (x: unknown): string => (numberOf(x) === 0 ? "0" : numberOf(x).toExponential(1));
   const body = el("tbody", {}, ...[...list].sort((a, b) => Number(!isTimed(a)) - Number(!isTimed(b)) || a.ns_median - b.ns_median).map((r) => {
     const n = (text: string, bad = false): HTMLElement => el("td", { class: bad ? "n bad" : "n" }, text);

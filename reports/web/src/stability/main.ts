@@ -50,6 +50,11 @@ export const rungText = (x: number): string => {
 const failsAt = (r: Result): number | null => r[kind.value as Kind] ?? null;
 const of = (engine: string, name: string): Result | undefined => data.results.find((r) => r.engine === engine && r.ladder === name && r.question === question.value);
 
+function withUnit(name: string): string {
+  const unit = data.ladders.find((l) => l.name === name)?.unit;
+  return unit && unit !== name ? `${name}, ${unit}` : name;
+}
+
 function draw(): void {
   const names = data.ladders.map((l) => l.name).filter((n) => data.results.some((r) => r.ladder === n && r.question === question.value));
   const here = engines.filter((e) => names.some((n) => of(e, n)));
@@ -90,7 +95,7 @@ function draw(): void {
       return r ? [{ name: e, type: "line", lineStyle: { color: c }, itemStyle: { color: c }, data: r.rungs.filter((k) => cell(k, "asked") > 0).map((k) => [cell(k, "value"), y(k)]) }] : [];
     }),
   }, { notMerge: true });
-  table.replaceChildren(el("table", {}, el("thead", {}, el("tr", {}, el("th", {}, "engine"), ...names.map((n) => el("th", { class: "n" }, n)))),
+  table.replaceChildren(el("table", {}, el("thead", {}, el("tr", {}, el("th", {}, "engine"), ...names.map((n) => el("th", { class: "n", title: data.ladders.find((l) => l.name === n)?.line ?? "" }, withUnit(n))))),
     el("tbody", {}, ...here.map((e) => el("tr", { "data-engine": e }, el("td", {}, e), ...names.map((n) => {
       const r = of(e, n);
       const at = r ? failsAt(r) : null, asked = r?.rungs.reduce((s, k) => s + cell(k, "asked"), 0) ?? 0;
