@@ -282,6 +282,38 @@ bool is_reordered(const Pair& p, const Points& was, const Points& is) {
   });
 }
 
+// A point that clearly stays where it is on a body, and gets another id.
+struct Renamed {
+  std::string_view body;  // "A" or "B"
+  const ManifoldPoint *before, *after;
+};
+
+// The only one of the points within `same` of `place`, if no other is within `other`.
+const ManifoldPoint* point_at(const Carried& way, const std::vector<ManifoldPoint>& was, const Vec3& place,
+                              double same, double other) {
+  const ManifoldPoint* found = nullptr;
+  for (const ManifoldPoint& p : was) {
+    const double apart = (way.point(p.position) - place).norm();
+    if (!(apart <= other)) continue;
+    if (found || !(apart <= same)) return nullptr;
+    found = &p;
+  }
+  return found;
+}
+
+std::optional<Renamed> renamed_point(const Pair& p) {
+  constexpr double clearly = 1e-3;  // of the scale
+  const double same = 4 * (referee::contact_slack_factor * p.scale() + p.rounding());
+  const double other = std::max(2 * same, clearly * p.scale());
+  for (const auto& [body, k] : {std::pair("A", std::size_t{1}), std::pair("B", std::size_t{2})})
+    for (const ManifoldPoint& is : p.after.answer.manifold) {
+      const ManifoldPoint* const was =
+          point_at(p.ways[k], p.before.answer.manifold, is.position, same, other);
+      if (was && was->id && is.id && *was->id != *is.id) return Renamed{body, was, &is};
+    }
+  return std::nullopt;
+}
+
 // How much farther the points move than the region's corners, at least, however they are carried along.
 double excess_of_points(const Pair& p, const Points& was, const Points& is) {
   const double slack = 4 * (referee::contact_slack_factor * p.scale() + p.rounding());
@@ -305,11 +337,19 @@ void judge_manifolds(const Pair& p, int frame, FrameChange& out) {
     return;
   }
   if (is.empty()) return;
-  if (const double excess = excess_of_points(p, was, is); excess > 0)
+  if (const double excess = excess_of_points(p, was, is); excess > 0) {
     out.flickers.push_back(
         report(p, Flicker::points, frame, excess,
                fmt::format("the points move {:.6g} farther than the corners of the contact region", excess)));
-  else if (is_reordered(p, was, is))
+    return;
+  }
+  if (const auto renamed = renamed_point(p); renamed && moved_corners(p))
+    out.flickers.push_back(
+        report(p, Flicker::ids, frame, 1,
+               fmt::format("the point at {} stays where it is on {}; its id was {} and is {}",
+                           vector_text(renamed->after->position), renamed->body, *renamed->before->id,
+                           *renamed->after->id)));
+  if (is_reordered(p, was, is))
     out.flickers.push_back(
         report(p, Flicker::order, frame, 0, "the points are the same, listed in another order"));
 }

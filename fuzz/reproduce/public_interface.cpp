@@ -70,6 +70,9 @@ Answer ask() {
   ts_sink sink{};
   sink.ctx = &reported;
   sink.point = report_point;
+  sink.named_point = [](void* ctx, const double* position, double depth, uint64_t) {
+    report_point(ctx, position, depth);
+  };
   sink.pair = report_pair;
   sink.contact = report_contact;
   plugin.ask(engine, @QUESTION@, @A@, @B@, &a, &sink);

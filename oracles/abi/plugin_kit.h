@@ -186,6 +186,14 @@ inline void set_depth(ts_answer& out, double d) {
 inline double depth_along(const Vec3& stated, const Vec3& n, double depth) {
   return (n - stated).norm() <= same_normal ? depth : std::numeric_limits<double>::quiet_NaN();
 }
+/// A point of a manifold with the engine's name of the features that meet there.
+inline void report_point(const ts_sink& sink, const Vec3& position, double depth, std::uint64_t id) {
+  constexpr std::uint32_t minor_with_ids = 7;
+  if (host_minor >= minor_with_ids)
+    sink.named_point(sink.ctx, position.data(), depth, id);
+  else
+    sink.point(sink.ctx, position.data(), depth);
+}
 inline void set_toi(ts_answer& out, double t) {
   out.has |= TS_HAS_TOI;
   out.toi = t;

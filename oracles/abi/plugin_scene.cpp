@@ -245,8 +245,8 @@ ts_answer blank_answer() {
   return blank;
 }
 
-void AnswerCollector::add_point(const double position[3], double depth) {
-  seen_.manifold.push_back({vec3(position), depth});
+void AnswerCollector::add_point(const double position[3], double depth, std::optional<std::uint64_t> id) {
+  seen_.manifold.push_back({vec3(position), depth, id});
 }
 
 AnswerCollector::AnswerCollector(int body_count, int query_step_count)
@@ -275,6 +275,9 @@ ts_sink AnswerCollector::callbacks() {
               c.fault_ = "names a contact of bodies that do not exist";
             else
               c.seen_.contacts.push_back({std::min(a, b), std::max(a, b), a < b ? n : Vec3(-n), depth});
+          },
+          [](void* ctx, const double position[3], double depth, std::uint64_t id) noexcept {
+            static_cast<AnswerCollector*>(ctx)->add_point(position, depth, id);
           }};
 }
 

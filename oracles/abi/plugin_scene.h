@@ -83,7 +83,7 @@ class AnswerCollector {
   AnswerCollector(int body_count, int query_step_count);
   ts_sink callbacks();
   ts_answer& answer() { return answer_; }
-  void add_point(const double position[3], double depth);
+  void add_point(const double position[3], double depth, std::optional<std::uint64_t> id = std::nullopt);
   /// The answer as an observation; a malformed answer (unknown outcome, nonexistent body) becomes
   /// `invalid_answer`.
   Observation take(Question question);

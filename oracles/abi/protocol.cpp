@@ -1,5 +1,7 @@
 #include "oracles/abi/protocol.h"
 
+#include <algorithm>
+
 #include "scenarios/text/printable.h"
 
 namespace touchstone::protocol {
@@ -33,8 +35,23 @@ enum Present : std::uint16_t {
   has_upper = 256,
   has_moment = 512,
   has_unique = 1024,
-  all_present = 2047
+  has_ids = 2048,
+  all_present = 4095
 };
+
+bool has_id(const ManifoldPoint& p) { return p.id.has_value(); }
+
+void put_ids(Writer& w, const std::vector<ManifoldPoint>& manifold) {
+  for (const ManifoldPoint& p : manifold) {
+    w.put(static_cast<std::uint8_t>(has_id(p)));
+    if (p.id) w.put(*p.id);
+  }
+}
+
+void get_ids(Reader& r, std::vector<ManifoldPoint>& manifold) {
+  for (ManifoldPoint& p : manifold)
+    if (r.flag()) p.id = r.get<std::uint64_t>();
+}
 
 void put_lists(Writer& w, const Observation& o) {
   w.count(o.manifold.size());
@@ -75,11 +92,12 @@ void get_lists(Reader& r, Observation& o) {
 
 void put_observation(Writer& w, const Observation& o) {
   const bool lists = !o.manifold.empty() || !o.candidate_pairs.empty() || !o.contacts.empty();
+  const bool ids = std::any_of(o.manifold.begin(), o.manifold.end(), has_id);
   const auto present = static_cast<std::uint16_t>(
       (o.overlap ? has_overlap : 0) | (o.distance ? has_distance : 0) | (o.witness ? has_witness : 0) |
       (o.normal ? has_normal : 0) | (o.depth ? has_depth : 0) | (o.toi ? has_toi : 0) |
       (lists ? has_lists : 0) | (o.lower_bound ? has_lower : 0) | (o.upper_bound ? has_upper : 0) |
-      (o.moment ? has_moment : 0) | (o.unique_gradient ? has_unique : 0));
+      (o.moment ? has_moment : 0) | (o.unique_gradient ? has_unique : 0) | (ids ? has_ids : 0));
   w.put(static_cast<std::uint8_t>(o.outcome)).put(present).text(o.detail);
   w.put(o.claimed_tolerance).put(o.elapsed_ns);
   if (o.overlap) w.put(static_cast<std::uint8_t>(*o.overlap));
@@ -93,6 +111,7 @@ void put_observation(Writer& w, const Observation& o) {
   if (o.moment) w.put(*o.moment);
   if (o.unique_gradient) w.put(static_cast<std::uint8_t>(*o.unique_gradient));
   if (lists) put_lists(w, o);
+  if (ids) put_ids(w, o.manifold);
 }
 
 Observation get_observation(Reader& r) {
@@ -117,6 +136,7 @@ Observation get_observation(Reader& r) {
   if (present & has_moment) o.moment = r.vec3();
   if (present & has_unique) o.unique_gradient = r.flag();
   if (present & has_lists) get_lists(r, o);
+  if (present & has_ids) get_ids(r, o.manifold);
   return o;
 }
 

@@ -42,8 +42,9 @@ extern "C" {
  *    "sweep_skin", "depth_biases" and "times_include_pipe" of a card
  * 4: TS_WITHIN to TS_RAY; ts_scene.margin; ts_answer.lower, upper; TS_HAS_LOWER, TS_HAS_UPPER
  * 5: "separate_triangles" of a card; ts_answer.moment, unique_gradient; TS_HAS_MOMENT, TS_HAS_UNIQUE
- * 6: TS_SOLID_MESH */
-#define TS_ABI_MINOR 6
+ * 6: TS_SOLID_MESH
+ * 7: ts_sink.named_point, ts_batch_sink.named_point */
+#define TS_ABI_MINOR 7
 
 #if defined(_WIN32)
 #define TS_EXPORT __declspec(dllexport)
@@ -221,6 +222,10 @@ typedef struct ts_sink {
   void (*pair)(void* ctx, int32_t k, int32_t a, int32_t b);
   /* TS_SCENE_CONTACTS */
   void (*contact)(void* ctx, int32_t a, int32_t b, const double normal[3], double depth);
+  /* Since minor 7. In place of `point`, if the engine names the features that meet at a point (as warm starting needs):
+   * while the same features meet in the next frame of a motion, the id should be the same. Any number may be
+   * an id; a point without a name is passed to `point`. */
+  void (*named_point)(void* ctx, const double position[3], double depth, uint64_t id);
 } ts_sink;
 
 /* The scene as the engine received it, in exact numbers: what its own types hold after conversion. Sizes follow the
@@ -264,6 +269,7 @@ typedef struct ts_batch_sink {
                          size_t vertex_count);
   void (*received_other_shape)(void* ctx, size_t i, int32_t body, const ts_shape* held);
   void (*received_body)(void* ctx, size_t i, int32_t body, const double matrix[9], const double translation[3]);
+  void (*named_point)(void* ctx, size_t i, const double position[3], double depth, uint64_t id); /* since minor 7 */
 } ts_batch_sink;
 
 typedef struct ts_engine ts_engine; /* yours */

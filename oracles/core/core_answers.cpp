@@ -63,7 +63,10 @@ void store(const ContactAnswer& answer, const Manifold& manifold, Observation& o
   if (!answer.overlap) return;
   o.normal = answer.normal;
   o.depth = answer.depth;
-  for (const ContactPoint& p : manifold) o.manifold.push_back({p.position, p.depth});
+  for (const ContactPoint& p : manifold) {
+    o.manifold.push_back({p.position, p.depth, std::nullopt});
+    if (p.feature != 0) o.manifold.back().id = p.feature;
+  }
 }
 
 void store(const std::vector<PairContact>& contacts, long unsupported, Observation& o) {

@@ -79,6 +79,10 @@ ts_batch_sink PairBatch::callbacks() {
              const double translation[3]) noexcept {
             if (const Pair* p = static_cast<PairBatch*>(ctx)->pair(i, which))
               p->received->body(p->body(which), matrix, translation);
+          },
+          [](void* ctx, std::size_t i, const double position[3], double depth, std::uint64_t id) noexcept {
+            auto& batch = *static_cast<PairBatch*>(ctx);
+            if (batch.pair(i, 0)) batch.answers_[i].add_point(position, depth, id);
           }};
 }
 

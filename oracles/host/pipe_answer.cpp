@@ -29,6 +29,12 @@ double depth_of_point(const Json& p) {
                                                          : std::numeric_limits<double>::quiet_NaN();
 }
 
+std::uint64_t id_of_point(const Json& p) {
+  if (!p.at("id").is_number_unsigned())
+    throw std::runtime_error("the command's id of a point is not a whole number from 0 to 2^64 - 1");
+  return p.at("id").get<std::uint64_t>();
+}
+
 void read_lists(const Json& j, const ts_sink& sink) {
   double v[3];
   if (j.contains("pairs")) {
@@ -41,7 +47,10 @@ void read_lists(const Json& j, const ts_sink& sink) {
   }
   for (const Json& p : j.value("points", Json::array())) {
     read3(p.at("position"), v);
-    sink.point(sink.ctx, v, depth_of_point(p));
+    if (p.contains("id"))
+      sink.named_point(sink.ctx, v, depth_of_point(p), id_of_point(p));
+    else
+      sink.point(sink.ctx, v, depth_of_point(p));
   }
   for (const Json& c : j.value("contacts", Json::array())) {
     read3(c.at("normal"), v);
@@ -67,6 +76,10 @@ ts_sink sink_of(OfPair& pair) {
           },
           [](void*, std::int32_t, std::int32_t, const double*, double) {
             throw std::runtime_error("the command lists contacts in an answer about one pair");
+          },
+          [](void* ctx, const double position[3], double depth, std::uint64_t id) {
+            const OfPair& p = *static_cast<OfPair*>(ctx);
+            p.sink.named_point(p.sink.ctx, p.i, position, depth, id);
           }};
 }
 

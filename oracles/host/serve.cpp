@@ -221,7 +221,8 @@ class Server {
   std::int64_t ask_again(const Query& q, std::int64_t took, std::int64_t stated) {
     const ts_sink sink{nullptr, [](void*, const double*, double) {},
                        [](void*, std::int32_t, std::int32_t, std::int32_t) {},
-                       [](void*, std::int32_t, std::int32_t, const double*, double) {}};
+                       [](void*, std::int32_t, std::int32_t, const double*, double) {},
+                       [](void*, const double*, double, std::uint64_t) {}};
     const ts_answer blank = blank_answer();
     std::int64_t least = stated;
     try {

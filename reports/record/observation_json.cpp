@@ -36,8 +36,11 @@ Json to_json(const Observation& o) {
   if (o.moment) j["moment"] = vector(*o.moment);
   if (o.unique_gradient) j["unique_gradient"] = *o.unique_gradient;
   if (o.depth) j["depth"] = number(*o.depth);
-  for (const ManifoldPoint& p : o.manifold)
-    j["manifold"].push_back({{"position", vector(p.position)}, {"depth", number(p.depth)}});
+  for (const ManifoldPoint& p : o.manifold) {
+    Json point{{"position", vector(p.position)}, {"depth", number(p.depth)}};
+    if (p.id) point["id"] = *p.id;
+    j["manifold"].push_back(std::move(point));
+  }
   if (o.toi) j["toi"] = number(*o.toi);
   if (o.lower_bound) j["lower_bound"] = number(*o.lower_bound);
   if (o.upper_bound) j["upper_bound"] = number(*o.upper_bound);

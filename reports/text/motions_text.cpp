@@ -63,7 +63,7 @@ std::string state_cell(const MotionResult& r) { return r.state_asked == 0 ? "" :
 // What each engine's flicker consists of.
 std::string kinds_table(const Motions& m) {
   std::string text = fmt::format("{:<{}}", "kinds of flicker", name_width);
-  const auto wide = [](std::string_view name) { return std::max<std::size_t>(7, name.size() + 1); };
+  const auto wide = [](std::string_view name) { return std::max<std::size_t>(6, name.size() + 1); };
   for (const std::string_view name : flicker_names) text += fmt::format("{:>{}}", name, wide(name));
   text += '\n';
   for (const std::string& e : engines_of(m)) {

@@ -19,10 +19,11 @@ enum class Flicker : std::uint8_t {
   verdict,   // overlap is said of one frame and denied of the other; in truth both overlap, or neither
   count,     // the number of points changes, the contact region keeps its corners
   points,    // the points move farther than the corners of the contact region
+  ids,       // a point stays on a body, its id changes
   order      // the points are the same, listed in another order
 };
-inline constexpr auto flicker_names =
-    std::to_array<std::string_view>({"needless", "tied", "depth", "verdict", "count", "points", "order"});
+inline constexpr auto flicker_names = std::to_array<std::string_view>(
+    {"needless", "tied", "depth", "verdict", "count", "points", "ids", "order"});
 static_assert(flicker_names.size() == static_cast<std::size_t>(Flicker::order) + 1);
 inline constexpr std::size_t flicker_count = flicker_names.size();
 constexpr std::string_view to_string(Flicker f) { return flicker_names[static_cast<std::size_t>(f)]; }

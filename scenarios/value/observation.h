@@ -16,6 +16,7 @@ namespace touchstone {
 struct ManifoldPoint {
   Vec3 position = Vec3::Zero();  // world
   double depth = 0;
+  std::optional<std::uint64_t> id{};  // the engine's name of the features that meet there; never compared
   bool operator==(const ManifoldPoint& o) const { return position == o.position && depth == o.depth; }
 };
 

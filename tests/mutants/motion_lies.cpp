@@ -75,6 +75,10 @@ void next_point_first(const Case& c, const Query&, Observation& o) {
   std::rotate(o.manifold.begin(), o.manifold.begin() + frame_of(c) % static_cast<int>(o.manifold.size()),
               o.manifold.end());
 }
+void other_ids(const Case& c, const Query&, Observation& o) {
+  for (ManifoldPoint& p : o.manifold)
+    if (p.id) p.id = *p.id << 32 | static_cast<std::uint64_t>(frame_of(c));
+}
 // Of a box: the axis after that of the normal, with its depth and no points.
 void another_axis(const Case& c, const Query& q, Observation& o) {
   const Vec3 n(o.normal->z(), o.normal->x(), o.normal->y());
@@ -145,6 +149,7 @@ const std::vector<MotionLie>& motion_lies() {
        in_frames(odd, without_last_point)},
       {"motion_wanders", "points", "slide", "one point of the face, from either end in turn",
        in_frames(all, one_end_or_the_other)},
+      {"motion_new_ids", "ids", "slide", "the points get new ids in each frame", in_frames(all, other_ids)},
       {"motion_renames", "order", "slide", "the points begin with another one in each frame",
        in_frames(all, next_point_first)},
       {"motion_keeps_normal", "state", "pass", "the normal of the frame before",

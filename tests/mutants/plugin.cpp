@@ -50,7 +50,11 @@ Scene scene_of(const ts_scene& s) {
 }
 
 void fill_lists(const Observation& o, const ts_sink& sink) {
-  for (const ManifoldPoint& p : o.manifold) sink.point(sink.ctx, p.position.data(), p.depth);
+  for (const ManifoldPoint& p : o.manifold)
+    if (p.id)
+      kit::report_point(sink, p.position, p.depth, *p.id);
+    else
+      sink.point(sink.ctx, p.position.data(), p.depth);
   for (std::size_t k = 0; k < o.candidate_pairs.size(); ++k)
     for (const auto& [a, b] : o.candidate_pairs[k]) sink.pair(sink.ctx, static_cast<int>(k), a, b);
   for (const SceneContact& c : o.contacts) sink.contact(sink.ctx, c.a, c.b, c.normal.data(), c.depth);

@@ -55,6 +55,9 @@ TEST_CASE("pairs are asked together, and get the answers that they get alone", "
       CHECK(alone[0].answers[0].elapsed_ns == stated_alone);
       CHECK(alone[0].answers[3].detail == "spheres only");
       CHECK(at_once[i].answers[1].manifold.size() == (at_once[i].answers[1].overlap.value() ? 1 : 0));
+      for (const CaseObservations& o : {at_once[i], alone[0]})
+        for (const ManifoldPoint& p : o.answers[1].manifold)
+          CHECK(p.id == (std::string(name) == "floats" ? std::optional<std::uint64_t>(17) : std::nullopt));
       CHECK(at_once[i].received.bodies[0].has_value() == (std::string(name) == "floats"));
       together += at_once[i].answers[0].elapsed_ns == stated_together;
       if (i == of_three_bodies) CHECK(at_once[i].answers[0].elapsed_ns == stated_alone);

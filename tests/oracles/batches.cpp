@@ -12,6 +12,7 @@ namespace {
 
 using namespace touchstone;
 
+constexpr std::uint64_t id_of_points = 17;  // of "floats"
 constexpr const char* names[] = {"together",        "floats",    "dies",  "dies_together",
                                  "throws_together", "strangers", "loops", "partial"};
 
@@ -45,7 +46,12 @@ class Engine {
     const ts_body &x = scene_->bodies[a], &y = scene_->bodies[b];
     if (is_trigger(x.pose)) misbehave();
     answer(question, scene_->shapes[x.shape], x.pose, scene_->shapes[y.shape], y.pose, out,
-           [&](const Vec3& p, double depth) { sink.point(sink.ctx, p.data(), depth); });
+           [&](const Vec3& p, double depth) {
+             if (name_ == "floats")
+               kit::report_point(sink, p, depth, id_of_points);
+             else
+               sink.point(sink.ctx, p.data(), depth);
+           });
     out.ns = 3;
   }
 
@@ -57,7 +63,12 @@ class Engine {
       if (is_trigger(batch.pose_a[i])) misbehave();
       const ts_shape &a = batch.shapes[batch.shape_a[i]], &b = batch.shapes[batch.shape_b[i]];
       answer(batch.question, a, batch.pose_a[i], b, batch.pose_b[i], answers[i],
-             [&](const Vec3& p, double depth) { sink.point(sink.ctx, i, p.data(), depth); });
+             [&](const Vec3& p, double depth) {
+               if (name_ == "floats")
+                 sink.named_point(sink.ctx, i, p.data(), depth, id_of_points);
+               else
+                 sink.point(sink.ctx, i, p.data(), depth);
+             });
       answers[i].ns = 5;
       if (name_ != "floats") continue;
       for (const int body : {0, 1}) {

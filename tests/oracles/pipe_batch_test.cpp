@@ -47,6 +47,7 @@ struct Seen {
   std::map<std::pair<std::size_t, int>, std::vector<double>> sizes, matrices;
   std::map<std::pair<std::size_t, int>, std::size_t> vertices;
   std::vector<std::pair<std::size_t, double>> points;
+  std::vector<std::uint64_t> ids;
   ts_batch_sink sink() {
     return {
         this,
@@ -65,6 +66,10 @@ struct Seen {
           auto& s = *static_cast<Seen*>(ctx);
           s.matrices[{i, body}].assign(m, m + 9);
           s.matrices[{i, body}].insert(s.matrices[{i, body}].end(), t, t + 3);
+        },
+        [](void* ctx, std::size_t i, const double*, double depth, std::uint64_t id) {
+          static_cast<Seen*>(ctx)->points.emplace_back(i, depth);
+          static_cast<Seen*>(ctx)->ids.push_back(id);
         }};
   }
 };
@@ -240,7 +245,7 @@ TEST_CASE("a batch may be answered in lines, each with what was received", "[ora
                     refused = R"({"outcome": "unsupported", "detail": "no meshes"})",
                     deep = R"({"received": {"shapes": [{"shape": 1, "size": [2.5]}], "bodies": [{"body": 0,
       "matrix": [1, 0, 0, 0, 1, 0, 0, 0, 1], "translation": [5, 6, 7]}]}, "overlap": true, "normal": [0, 0, 1],
-      "points": [{"position": [1, 2, 3], "depth": 0.5}], "ns": 9})";
+      "points": [{"position": [1, 2, 3], "depth": 0.5}, {"position": [1, 2, 4], "depth": 0.25, "id": 8}], "ns": 9})";
   const Read r = read_lines(header, {apart, deep, refused});
   CHECK(r.answers[0].has == TS_HAS_OVERLAP);
   CHECK(r.answers[0].ns == 7);
@@ -248,7 +253,8 @@ TEST_CASE("a batch may be answered in lines, each with what was received", "[ora
   CHECK(r.answers[1].ns == 9);
   CHECK(r.answers[2].outcome == TS_UNSUPPORTED);
   CHECK(std::string(r.answers[2].detail) == "no meshes");
-  CHECK(r.seen.points == std::vector<std::pair<std::size_t, double>>{{1, 0.5}});
+  CHECK(r.seen.points == std::vector<std::pair<std::size_t, double>>{{1, 0.5}, {1, 0.25}});
+  CHECK(r.seen.ids == std::vector<std::uint64_t>{8});
   CHECK(r.seen.sizes.size() == 1);
   CHECK(r.seen.sizes.at({1, 1})[0] == 2.5);
   CHECK(r.seen.matrices.size() == 1);
@@ -261,4 +267,9 @@ TEST_CASE("a batch may be answered in lines, each with what was received", "[ora
   const std::string stranger =
       R"({"received": {"shapes": [{"shape": 2, "size": [1]}]}, "overlap": true, "ns": 1})";
   CHECK_THROWS_AS(read_lines(header, {stranger, apart, apart}), std::runtime_error);
+  for (const std::string id : {"-1", "0.5", "\"corner\"", "null", "18446744073709551616"}) {
+    const std::string named =
+        R"({"overlap": true, "points": [{"position": [1, 2, 3], "id": )" + id + R"(}], "ns": 1})";
+    CHECK_THROWS_AS(read_lines(header, {named, apart, apart}), std::runtime_error);
+  }
 }

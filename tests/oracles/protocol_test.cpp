@@ -98,12 +98,22 @@ Observation any_observation(Rng& rng) {
   maybe(o.upper_bound, rng.uniform(-1, 1));
   maybe(o.moment, any_vector(rng));
   maybe(o.unique_gradient, rng.chance(0.5));
-  for (std::size_t i = rng.below(3); i > 0; --i) o.manifold.push_back({any_vector(rng), rng.uniform()});
+  for (std::size_t i = rng.below(3); i > 0; --i) {
+    o.manifold.push_back({any_vector(rng), rng.uniform()});
+    if (rng.chance(0.5)) o.manifold.back().id = rng.next();
+  }
   for (std::size_t i = rng.below(3); i > 0; --i) o.candidate_pairs.push_back({{0, 1}, {2, 7}});
   for (std::size_t i = rng.below(3); i > 0; --i) o.contacts.push_back({0, 1, any_vector(rng), rng.uniform()});
   o.claimed_tolerance = rng.uniform();
   o.elapsed_ns = static_cast<std::int64_t>(rng.below(1000000));
   return o;
+}
+
+using Ids = std::vector<std::optional<std::uint64_t>>;
+Ids ids_of(const Observation& o) {
+  Ids all;
+  for (const ManifoldPoint& p : o.manifold) all.push_back(p.id);
+  return all;
 }
 
 std::vector<Query> any_queries(Rng& rng) {
@@ -185,6 +195,7 @@ TEST_CASE("answers, received scenes and hellos round-trip", "[oracles][protocol]
     std::string bytes;
     append(bytes, AnswerMessage{5, 6, o});
     const AnswerMessage a = decode_answer(payload_of(bytes, Type::answer));
+    REQUIRE(ids_of(a.observation) == ids_of(o));
     REQUIRE(
         (a.observation == o && a.observation.elapsed_ns == o.elapsed_ns && a.sequence == 5 && a.query == 6));
     const Scene scene = any_scene(rng);
@@ -228,6 +239,21 @@ TEST_CASE("gradients pass through the C ABI", "[oracles][abi]") {
   const Observation o = collector.take(Question::distance);
   CHECK(o.moment == Vec3(1, 2, 3));
   CHECK(o.unique_gradient == true);
+}
+
+TEST_CASE("ids of points pass through the C ABI", "[oracles][abi]") {
+  AnswerCollector collector(2, 0);
+  const ts_sink sink = collector.callbacks();
+  const double at[] = {1, 2, 3};
+  constexpr std::uint64_t largest = std::numeric_limits<std::uint64_t>::max();
+  sink.named_point(sink.ctx, at, 0.5, largest);
+  sink.point(sink.ctx, at, 0.25);
+  sink.named_point(sink.ctx, at, 0.125, 0);
+  collector.answer().outcome = TS_ANSWERED;
+  const Observation o = collector.take(Question::contact);
+  CHECK(ids_of(o) == Ids{largest, std::nullopt, 0});
+  REQUIRE(o.manifold.size() == 3);
+  CHECK(o.manifold[0] == ManifoldPoint{Vec3(1, 2, 3), 0.5});
 }
 
 TEST_CASE("shapes pass through the C ABI and back", "[oracles][abi]") {
