@@ -21,10 +21,7 @@ struct CoverArguments {
   bool json = false;
 };
 
-std::string line(const std::string& label, const std::string& words) {
-  constexpr std::size_t width = 79, indent = 16;
-  return reports::wrapped(fmt::format("  {:<14}{}", label, words), width, indent) + "\n";
-}
+constexpr std::size_t cover_label_width = 14;
 
 std::string point(const Vec3& p) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x(), p.y(), p.z()); }
 
@@ -57,19 +54,24 @@ std::string text_of(const CoverArguments& o, const Cover& c) {
                                                printable(o.pieces)),
                                    79, 2) +
                   "\n";
-  s += line("covered", verdict_words(c));
+  s += reports::labelled("covered", cover_label_width, verdict_words(c));
   if (c.witness)
-    s += line("witness", fmt::format("{} of triangle {} is in no piece (rounded; --json has it exactly)",
-                                     point(c.witness->rounded), c.witness->triangle));
+    s += reports::labelled("witness", cover_label_width,
+                           fmt::format("{} of triangle {} is in no piece (rounded; --json has it exactly)",
+                                       point(c.witness->rounded), c.witness->triangle));
   if (!c.uncovered.empty())
-    s += line("sticks out",
-              fmt::format("by {} at most, at {}", range(c.sticks_out.bracket), point(c.sticks_out.at)));
+    s += reports::labelled(
+        "sticks out", cover_label_width,
+        fmt::format("by {} at most, at {}", range(c.sticks_out.bracket), point(c.sticks_out.at)));
   if (c.reaches_beyond)
-    s += line("pieces reach", fmt::format("{} beyond the mesh at most, at {}",
-                                          range(c.reaches_beyond->bracket), point(c.reaches_beyond->at)));
+    s += reports::labelled("pieces reach", cover_label_width,
+                           fmt::format("{} beyond the mesh at most, at {}", range(c.reaches_beyond->bracket),
+                                       point(c.reaches_beyond->at)));
   else
-    s += line("pieces reach", "not measured: the mesh is not closed, and so has no inside");
-  return s + line("volume", volume_words(c)) + "  lengths in the unit of the files\n";
+    s += reports::labelled("pieces reach", cover_label_width,
+                           "not measured: the mesh is not closed, and so has no inside");
+  return s + reports::labelled("volume", cover_label_width, volume_words(c)) +
+         "  lengths in the unit of the files\n";
 }
 
 int verdict_on(const CoverArguments& o, const Cover& c) {

@@ -75,6 +75,12 @@ std::string wrapped(const std::string& words, std::size_t width, std::size_t ind
   return out + line;
 }
 
+std::string labelled(const std::string& label, std::size_t label_width, const std::string& words) {
+  constexpr std::size_t terminal_width = 79;
+  return wrapped(fmt::format("  {:<{}}{}", label, label_width, words), terminal_width, label_width + 2) +
+         "\n";
+}
+
 namespace {
 
 // Names short enough for the table's column.

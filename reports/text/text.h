@@ -38,5 +38,7 @@ std::string nanoseconds(double ns);
 std::string duration(double ns);
 /// Breaks `text` at spaces to `width` columns; further lines are indented.
 std::string wrapped(const std::string& text, std::size_t width, std::size_t indent);
+/// A line of a terminal: "  label  words", whose further lines begin below the words.
+std::string labelled(const std::string& label, std::size_t label_width, const std::string& words);
 
 }  // namespace touchstone::reports

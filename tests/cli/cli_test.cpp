@@ -39,12 +39,6 @@ std::size_t longest_line(const std::string& s) {
   return longest;
 }
 
-std::string last_line(const std::string& s) {
-  if (s.size() < 2) return s;
-  const auto before = s.rfind('\n', s.size() - 2);
-  return s.substr(before == std::string::npos ? 0 : before + 1);
-}
-
 const std::string mutant = TS_BINARY_DIR "/lib/libtouchstone_mutants.so:";
 const std::string program = TS_BINARY_DIR "/bin/touchstone ";
 

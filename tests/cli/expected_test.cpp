@@ -29,11 +29,6 @@ void write_cases(const Workspace& w) {
   }
 }
 
-std::string last_line(const std::string& s) {
-  const auto before = s.size() < 2 ? std::string::npos : s.rfind('\n', s.size() - 2);
-  return s.substr(before == std::string::npos ? 0 : before + 1);
-}
-
 Json load(const Workspace& w, const std::string& file) { return parsed<Json>(read_all(w.dir / file)); }
 
 }  // namespace

@@ -19,8 +19,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const std::string program = TS_BINARY_DIR "/bin/touchstone ";
-const std::string liar = TS_BINARY_DIR "/lib/libtouchstone_mutants.so:overlap_always";
+const std::string program_path = TS_BINARY_DIR "/bin/touchstone ";
+const std::string overlap_liar = TS_BINARY_DIR "/lib/libtouchstone_mutants.so:overlap_always";
 
 int kills() {
   const char* text = std::getenv("TOUCHSTONE_KILLS");
@@ -42,7 +42,7 @@ std::map<std::string, std::string> findings_of(const fs::path& campaign) {
 bool killed(const Workspace& w, const std::string& arguments, std::mt19937_64& rng, int whole_ms) {
   const int ms = 1 + static_cast<int>(rng() % static_cast<std::uint64_t>(whole_ms));
   const std::string seconds = std::to_string(ms / 1000) + "." + std::to_string(1000 + ms % 1000).substr(1);
-  const Run r = w.run(program + arguments + " >/dev/null 2>&1 & p=$!; sleep " + seconds +
+  const Run r = w.run(program_path + arguments + " >/dev/null 2>&1 & p=$!; sleep " + seconds +
                       "; kill -9 $p 2>/dev/null; wait $p; exit $?");
   return r.code == 137;
 }
@@ -59,7 +59,7 @@ int elapsed_ms(const Workspace& w, const std::string& arguments, int& code) {
 TEST_CASE("a killed campaign, resumed until it ends, finds what an uninterrupted one finds", "[kill]") {
   const Workspace w("kill");
   const std::string fuzz =
-      "fuzz --cases 600 --seed 5 --jobs 2 --keep-answers --engines core," + liar + " --out ";
+      "fuzz --cases 600 --seed 5 --jobs 2 --keep-answers --engines core," + overlap_liar + " --out ";
   int code = 0;
   const int whole = elapsed_ms(w, fuzz + "whole", code);
   REQUIRE(code == 0);
@@ -82,8 +82,8 @@ TEST_CASE("a killed campaign, resumed until it ends, finds what an uninterrupted
 TEST_CASE("a killed merge, run again, gives the same result", "[kill][merge]") {
   const Workspace w("kill");
   for (const std::string shard : {"0", "1"})
-    REQUIRE(w.touchstone("fuzz --cases 256 --seed 5 --keep-answers --engines core," + liar + " --shard " +
-                         shard + "/2 --out part" + shard)
+    REQUIRE(w.touchstone("fuzz --cases 256 --seed 5 --keep-answers --engines core," + overlap_liar +
+                         " --shard " + shard + "/2 --out part" + shard)
                 .code == 0);
   int code = 0;
   const int whole = elapsed_ms(w, "merge whole part0 part1", code);
@@ -102,11 +102,11 @@ TEST_CASE("a killed merge, run again, gives the same result", "[kill][merge]") {
 
 TEST_CASE("a killed triage has reported whatever it put into the ledger", "[kill][triage]") {
   const Workspace w("kill");
-  REQUIRE(w.touchstone("fuzz --cases 128 --seed 5 --engines " + liar + " --out lies").code == 1);
+  REQUIRE(w.touchstone("fuzz --cases 128 --seed 5 --engines " + overlap_liar + " --out lies").code == 1);
   write_causes_by_hand(w.dir / "lies");
   const auto triage = [](const std::string& i) {
-    return "triage lies --json --date 2026-11-23 --engines " + liar + " --ledger l" + i + ".db --junit j" +
-           i + ".xml";
+    return "triage lies --json --date 2026-11-23 --engines " + overlap_liar + " --ledger l" + i +
+           ".db --junit j" + i + ".xml";
   };
   const auto cases = [&](const std::string& json) {
     std::map<std::string, std::string> r;
@@ -132,8 +132,8 @@ TEST_CASE("a killed triage has reported whatever it put into the ledger", "[kill
 
 TEST_CASE("killed causes leave the stored ones whole, and are found again", "[kill][causes]") {
   const Workspace w("kill");
-  REQUIRE(w.touchstone("fuzz --cases 128 --seed 5 --engines " + liar + " --out lies").code == 1);
-  const std::string causes = "causes lies --engines " + liar + " ";
+  REQUIRE(w.touchstone("fuzz --cases 128 --seed 5 --engines " + overlap_liar + " --out lies").code == 1);
+  const std::string causes = "causes lies --engines " + overlap_liar + " ";
   int code = 0;
   const int whole_ms = elapsed_ms(w, causes, code);
   REQUIRE(code == 0);

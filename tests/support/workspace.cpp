@@ -12,6 +12,12 @@ std::string read_all(const std::filesystem::path& p) {
   return {std::istreambuf_iterator<char>(f), {}};
 }
 
+std::string last_line(const std::string& text) {
+  if (text.size() < 2) return text;
+  const auto before = text.rfind('\n', text.size() - 2);
+  return text.substr(before == std::string::npos ? 0 : before + 1);
+}
+
 Workspace::Workspace(const std::string& name)
     : dir(std::filesystem::temp_directory_path() / ("touchstone-" + name + "-" + std::to_string(getpid()))) {
   std::filesystem::remove_all(dir);

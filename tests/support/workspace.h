@@ -13,6 +13,8 @@ struct Run {
 };
 
 std::string read_all(const std::filesystem::path& p);
+/// With its end of line.
+std::string last_line(const std::string& text);
 
 struct Workspace {
   std::filesystem::path dir;
