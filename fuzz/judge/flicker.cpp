@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/shape/convex_body.h"
 #include "fuzz/judge/frames.h"
 #include "fuzz/judge/tau.h"
 #include "oracles/referee/region/contact_region.h"
@@ -301,16 +302,23 @@ const ManifoldPoint* point_at(const Carried& way, const std::vector<ManifoldPoin
   return found;
 }
 
+// A round face has no corners: engines may take any points of its rim, which a turn carries onto each other.
+bool has_corners(const Shape& s) {
+  return std::visit([](const auto& x) { return is_polytope_shape<std::decay_t<decltype(x)>>; }, s);
+}
+
 std::optional<Renamed> renamed_point(const Pair& p) {
   constexpr double clearly = 1e-3;  // of the scale
   const double same = 4 * (referee::contact_slack_factor * p.scale() + p.rounding());
   const double other = std::max(2 * same, clearly * p.scale());
-  for (const auto& [body, k] : {std::pair("A", std::size_t{1}), std::pair("B", std::size_t{2})})
+  for (const auto& [body, k] : {std::pair("A", std::size_t{1}), std::pair("B", std::size_t{2})}) {
+    if (!has_corners(p.after.truth.scene().shape_of(k == 1 ? p.q.a : p.q.b))) continue;
     for (const ManifoldPoint& is : p.after.answer.manifold) {
       const ManifoldPoint* const was =
           point_at(p.ways[k], p.before.answer.manifold, is.position, same, other);
       if (was && was->id && is.id && *was->id != *is.id) return Renamed{body, was, &is};
     }
+  }
   return std::nullopt;
 }
 
