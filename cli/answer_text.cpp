@@ -15,11 +15,9 @@ using fuzz::GapProof;
 using fuzz::ImpactAnswer;
 using fuzz::PairAnswer;
 
-constexpr std::size_t columns = 79, label_width = 14;
-
-std::string row(std::string_view label, const std::string& value) {
-  return reports::wrapped(fmt::format("  {:<{}}{}", label, label_width - 2, value), columns, label_width) +
-         "\n";
+std::string row(const std::string& label, const std::string& value) {
+  constexpr std::size_t label_width = 12;
+  return reports::labelled(label, label_width, value);
 }
 
 // Shortest text without the sign of a zero.

@@ -21,8 +21,6 @@ struct CoverArguments {
   bool json = false;
 };
 
-constexpr std::size_t cover_label_width = 14;
-
 std::string point(const Vec3& p) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x(), p.y(), p.z()); }
 
 std::string range(const referee::Bracket& b) {
@@ -49,29 +47,28 @@ std::string volume_words(const Cover& c) {
 }
 
 std::string text_of(const CoverArguments& o, const Cover& c) {
+  const auto line = [](const std::string& label, const std::string& words) {
+    constexpr std::size_t label_width = 14;
+    return reports::labelled(label, label_width, words);
+  };
   std::string s = reports::wrapped(fmt::format("{} by {} of {}", printable(o.mesh),
                                                reports::counted(c.pieces, "convex piece", "convex pieces"),
                                                printable(o.pieces)),
                                    79, 2) +
                   "\n";
-  s += reports::labelled("covered", cover_label_width, verdict_words(c));
+  s += line("covered", verdict_words(c));
   if (c.witness)
-    s += reports::labelled("witness", cover_label_width,
-                           fmt::format("{} of triangle {} is in no piece (rounded; --json has it exactly)",
-                                       point(c.witness->rounded), c.witness->triangle));
+    s += line("witness", fmt::format("{} of triangle {} is in no piece (rounded; --json has it exactly)",
+                                     point(c.witness->rounded), c.witness->triangle));
   if (!c.uncovered.empty())
-    s += reports::labelled(
-        "sticks out", cover_label_width,
-        fmt::format("by {} at most, at {}", range(c.sticks_out.bracket), point(c.sticks_out.at)));
+    s += line("sticks out",
+              fmt::format("by {} at most, at {}", range(c.sticks_out.bracket), point(c.sticks_out.at)));
   if (c.reaches_beyond)
-    s += reports::labelled("pieces reach", cover_label_width,
-                           fmt::format("{} beyond the mesh at most, at {}", range(c.reaches_beyond->bracket),
-                                       point(c.reaches_beyond->at)));
+    s += line("pieces reach", fmt::format("{} beyond the mesh at most, at {}",
+                                          range(c.reaches_beyond->bracket), point(c.reaches_beyond->at)));
   else
-    s += reports::labelled("pieces reach", cover_label_width,
-                           "not measured: the mesh is not closed, and so has no inside");
-  return s + reports::labelled("volume", cover_label_width, volume_words(c)) +
-         "  lengths in the unit of the files\n";
+    s += line("pieces reach", "not measured: the mesh is not closed, and so has no inside");
+  return s + line("volume", volume_words(c)) + "  lengths in the unit of the files\n";
 }
 
 int verdict_on(const CoverArguments& o, const Cover& c) {

@@ -20,8 +20,6 @@ struct ImportArguments {
   ImportOptions import;
 };
 
-constexpr std::size_t import_label_width = 10;
-
 std::string kinds_of(const Scene& scene) {
   std::map<std::string, std::uint64_t> count;
   for (int i = 0; i < static_cast<int>(scene.bodies.size()); ++i)
@@ -53,28 +51,26 @@ std::string pairs_words(const Scene& scene) {
 }
 
 std::string summary(const ImportArguments& o, const ImportedModel& m, const Scene& scene) {
+  const auto line = [](const std::string& label, const std::string& words) {
+    constexpr std::size_t label_width = 10;
+    return reports::labelled(label, label_width, words);
+  };
   std::string text = fmt::format("{}: {}\n", printable(o.file), printable(m.model.name));
-  text += reports::labelled("links", import_label_width,
-                            fmt::format("{}, {} joints", m.model.links.size(), m.model.joints.size()));
+  text += line("links", fmt::format("{}, {} joints", m.model.links.size(), m.model.joints.size()));
   const auto variables = variables_of(m.model);
   if (!variables.empty())
-    text += reports::labelled("variables", import_label_width,
-                              fmt::format("{}: {}", variables.size(), fmt::join(variables, ", ")));
-  text += reports::labelled("bodies", import_label_width,
-                            fmt::format("{}: {}", scene.bodies.size(), kinds_of(scene)));
-  text += reports::labelled("pairs", import_label_width, pairs_words(scene));
+    text += line("variables", fmt::format("{}: {}", variables.size(), fmt::join(variables, ", ")));
+  text += line("bodies", fmt::format("{}: {}", scene.bodies.size(), kinds_of(scene)));
+  text += line("pairs", pairs_words(scene));
   if (m.adjacent_filters > 0)
-    text += reports::labelled(
-        "", import_label_width,
-        fmt::format("no SRDF says which pairs to check: {} pairs of links that one joint connects "
-                    "or that cannot move relative to each other are filtered",
-                    m.adjacent_filters));
+    text +=
+        line("", fmt::format("no SRDF says which pairs to check: {} pairs of links that one joint connects "
+                             "or that cannot move relative to each other are filtered",
+                             m.adjacent_filters));
   std::vector<std::string> states;
   for (const NamedState& s : m.model.states) states.push_back(printable(s.name));
-  if (!states.empty())
-    text += reports::labelled("states", import_label_width, fmt::format("{}", fmt::join(states, ", ")));
-  if (m.configurations.size() > 1)
-    text += reports::labelled("steps", import_label_width, reports::grouped(m.configurations.size()));
+  if (!states.empty()) text += line("states", fmt::format("{}", fmt::join(states, ", ")));
+  if (m.configurations.size() > 1) text += line("steps", reports::grouped(m.configurations.size()));
   return text;
 }
 

@@ -13,11 +13,12 @@
 // 7u·P of rounding: 20u·Σ|n_c|·P_c. These bounds are relative, hence invalid where products underflow; there,
 // nothing is claimed.
 #include "core/impact/primitive_volume.h"
-#include "core/math/roundoff.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "core/math/roundoff.h"
 
 namespace touchstone::impact {
 namespace {

@@ -10,7 +10,6 @@ namespace touchstone::fuzz {
 namespace {
 
 bool is_mesh(const Placed& p) { return touchstone::is_mesh(*p.shape); }
-bool is_half_space(const Placed& p) { return std::holds_alternative<HalfSpace>(*p.shape); }
 
 // Radius of the ball that the checker adds to the shape's core.
 double ball_of(const Placed& p) {
@@ -42,7 +41,7 @@ Certificate nearest_points_certificate(const referee::PairTruth& truth, const Pl
   const double largest = std::max(p.cwiseAbs().maxCoeff(), q.cwiseAbs().maxCoeff());
   constexpr double allowances = 4;  // two for the points, two for the roundings of this sum and of the gap
   const double allowed = allowances * checker::point_factor * largest;
-  const bool plane = is_half_space(a) || is_half_space(b);
+  const bool plane = is<HalfSpace>(a) || is<HalfSpace>(b);
   const double apart = plane ? truth.gap.hi : (q - p).stableNorm() - ball_a - ball_b;
   c.offset = -(apart + allowed);
   c.note = "gap <= -offset: one point of each core, less the radii of the balls around them";
@@ -97,7 +96,7 @@ double pair_scale(const Placed& a, const Placed& b) {
   const auto origin = [](const Placed& p) {
     return std::visit([](const auto& pose) -> Vec3 { return pose.translation; }, p.pose);
   };
-  const auto reach = [](const Placed& p) { return is_half_space(p) ? 0 : 2 * bounding_radius(*p.shape); };
+  const auto reach = [](const Placed& p) { return is<HalfSpace>(p) ? 0 : 2 * bounding_radius(*p.shape); };
   return std::max({reach(a), reach(b), (origin(b) - origin(a)).stableNorm()});
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 
 #include "core/shape/convex_body.h"
 #include "fuzz/judge/frames.h"
@@ -311,12 +312,12 @@ std::optional<Renamed> renamed_point(const Pair& p) {
   constexpr double clearly = 1e-3;  // of the scale
   const double same = 4 * (referee::contact_slack_factor * p.scale() + p.rounding());
   const double other = std::max(2 * same, clearly * p.scale());
-  for (const auto& [body, k] : {std::pair("A", std::size_t{1}), std::pair("B", std::size_t{2})}) {
-    if (!has_corners(p.after.truth.scene().shape_of(k == 1 ? p.q.a : p.q.b))) continue;
+  for (const auto& [name, body, way] :
+       {std::tuple("A", p.q.a, p.ways[1]), std::tuple("B", p.q.b, p.ways[2])}) {
+    if (!has_corners(p.after.truth.scene().shape_of(body))) continue;
     for (const ManifoldPoint& is : p.after.answer.manifold) {
-      const ManifoldPoint* const was =
-          point_at(p.ways[k], p.before.answer.manifold, is.position, same, other);
-      if (was && was->id && is.id && *was->id != *is.id) return Renamed{body, was, &is};
+      const ManifoldPoint* const was = point_at(way, p.before.answer.manifold, is.position, same, other);
+      if (was && was->id && is.id && *was->id != *is.id) return Renamed{name, was, &is};
     }
   }
   return std::nullopt;

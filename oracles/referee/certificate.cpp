@@ -164,8 +164,6 @@ Certificate half_space_plane(const Placed& h, const Placed& a, const Placed& b, 
   }
 }
 
-bool is_half_space(const Placed& p) { return std::holds_alternative<HalfSpace>(*p.shape); }
-
 }  // namespace
 
 namespace {
@@ -233,7 +231,7 @@ std::optional<ExactBody> exact_body(const Placed& p) {
 }
 
 Certificate exact_form(const PairTruth& truth, const Placed& a, const Placed& b) {
-  const bool plane_a = is_half_space(a), plane_b = is_half_space(b);
+  const bool plane_a = is<HalfSpace>(a), plane_b = is<HalfSpace>(b);
   const bool overlap = truth.verdict == Verdict::overlap;
   if (plane_a && plane_b) return {};
   if (is<TriangleMesh>(a) || is<TriangleMesh>(b)) {

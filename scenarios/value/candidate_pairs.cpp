@@ -1,9 +1,10 @@
 #include "scenarios/value/candidate_pairs.h"
-#include "core/math/roundoff.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
+
+#include "core/math/roundoff.h"
 
 namespace touchstone {
 namespace {

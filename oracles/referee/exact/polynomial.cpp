@@ -1,7 +1,8 @@
 #include "oracles/referee/exact/polynomial.h"
-#include "core/math/roundoff.h"
 
 #include <algorithm>
+
+#include "core/math/roundoff.h"
 
 namespace touchstone::referee {
 namespace {

@@ -115,8 +115,6 @@ bool within_of_half_space(const RationalPlane& h, const ExactBody& body, double 
   return is_at_most(*least, exact(margin) + exact(body.radius), dot(h.normal, h.normal));
 }
 
-bool is_half_space(const Placed& p) { return std::holds_alternative<HalfSpace>(*p.shape); }
-
 Verdict verdict_of(bool within) { return within ? Verdict::overlap : Verdict::disjoint; }
 
 // Whether any two parts are within the margin; a mesh has one for each triangle, other bodies one.
@@ -138,7 +136,7 @@ Verdict any_within(const Placed& a, const Placed& b, double margin) {
 Verdict half_space_within(const Placed& h, const Placed& other, double margin) {
   const RationalPlane plane = world_plane(h);
   if (is_zero(plane.normal)) return Verdict::undecided;
-  if (is_half_space(other)) {
+  if (is<HalfSpace>(other)) {
     const RationalPlane second = world_plane(other);
     if (is_zero(second.normal)) return Verdict::undecided;
     const std::optional<Rational> between = distance_of_half_spaces(plane, second);
@@ -190,10 +188,10 @@ Verdict decide_within(const Placed& a, const Placed& b, double margin, const Pai
   // An overlapping mesh has no depth to compare with the margin.
   if (margin < 0 && (is<TriangleMesh>(a) || is<TriangleMesh>(b)))
     return truth.verdict == Verdict::disjoint ? Verdict::disjoint : Verdict::undecided;
-  Verdict v = is_half_space(a)   ? half_space_within(a, b, margin)
-              : is_half_space(b) ? half_space_within(b, a, margin)
+  Verdict v = is<HalfSpace>(a)   ? half_space_within(a, b, margin)
+              : is<HalfSpace>(b) ? half_space_within(b, a, margin)
                                  : any_within(a, b, margin);
-  if (v == Verdict::undecided && margin > 0 && !is_half_space(a) && !is_half_space(b) &&
+  if (v == Verdict::undecided && margin > 0 && !is<HalfSpace>(a) && !is<HalfSpace>(b) &&
       !is<TriangleMesh>(a) && !is<TriangleMesh>(b) && has_near_points(a, b, margin, truth))
     v = verdict_of(true);
   return v;

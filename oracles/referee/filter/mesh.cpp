@@ -1,9 +1,9 @@
-#include "core/math/roundoff.h"
 #include "oracles/referee/filter/convex.h"
 
 #include <algorithm>
 #include <tuple>
 
+#include "core/math/roundoff.h"
 #include "oracles/referee/filter/half_space.h"
 #include "oracles/referee/work.h"
 

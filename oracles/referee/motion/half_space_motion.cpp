@@ -3,11 +3,11 @@
 // normal) that is not the same for both ends the separation at once: the normals m_A(t) and -m_B(t) are
 // analytic and differ in the first or second derivative at 0 unless ω is the same, so they differ at all
 // small t > 0. Then the half-spaces overlap: the first contact is at 0, as an infimum.
-#include "core/math/roundoff.h"
 #include "oracles/referee/motion/motion.h"
 
 #include <limits>
 
+#include "core/math/roundoff.h"
 #include "oracles/referee/exact/exact_pair.h"
 
 namespace touchstone::referee {
