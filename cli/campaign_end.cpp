@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <set>
 
+#include "cli/causes_of_campaign.h"
 #include "cli/chosen_engines.h"
 #include "cli/command.h"
-#include "cli/engine_paths.h"
 #include "reports/text/causes_text.h"
 #include "reports/text/text.h"
 

@@ -11,7 +11,6 @@
 
 #include "cli/command.h"
 #include "cli/engine_catalog.h"
-#include "cli/engine_paths.h"
 #include "cli/engines_by_card.h"
 #include "cli/judged_by.h"
 #include "cli/program_for.h"

@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "fuzz/causes/classes.h"
 #include "oracles/client/worker_limits.h"
 #include "reports/record/causes.h"
 #include "reports/record/result.h"
@@ -39,5 +40,14 @@ fuzz::Causes causes_without_asking(const std::string& directory);
 /// Asks no engine: those in DIR/causes.json if they are of this result, else what is stored alone tells.
 /// `directory` may be empty: the result is stored nowhere.
 fuzz::Causes known_causes(const std::string& directory, const fuzz::CampaignResult& result);
+
+// What is known about the catalogued engines beyond their cards: which of them share code, which routine a
+// library chooses for two shapes, and which engines differ in one respect.
+
+fuzz::EngineKnowledge catalogued_knowledge();
+
+/// The library of an engine path, or of the first of "a, b": "FCL" for "fcl-libccd"; what is given itself for
+/// engines outside the catalogue.
+std::string library_of(const std::string& path);
 
 }  // namespace touchstone::cli

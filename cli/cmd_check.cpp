@@ -12,7 +12,7 @@
 #include "core/base/input_error.h"
 #include "fuzz/ask/evidence.h"
 #include "oracles/checker/checker.h"
-#include "reports/record/evidence.h"
+#include "reports/record/result.h"
 #include "scenarios/codec/case_codec.h"
 #include "scenarios/codec/json_file.h"
 #include "scenarios/codec/value_codec.h"

@@ -6,13 +6,12 @@
 #include <set>
 
 #include "cli/command.h"
-#include "cli/debian_packages.h"
 #include "cli/engine_catalog.h"
+#include "cli/installed.h"
 #include "cli/npm_engines.h"
 #include "cli/optional_engines.h"
 #include "cli/output.h"
 #include "cli/own_engines.h"
-#include "cli/program_on_path.h"
 #include "core/base/input_error.h"
 #include "reports/text/text.h"
 

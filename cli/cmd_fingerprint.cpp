@@ -7,11 +7,11 @@
 
 #include "cli/command.h"
 #include "cli/engine_catalog.h"
+#include "cli/installed.h"
 #include "cli/output.h"
-#include "cli/program_on_path.h"
 #include "core/base/input_error.h"
 #include "fuzz/fingerprint/fingerprint.h"
-#include "reports/text/fingerprint_text.h"
+#include "reports/text/record_text.h"
 #include "reports/text/text.h"
 #include "scenarios/codec/case_codec.h"
 #include "scenarios/codec/json_file.h"

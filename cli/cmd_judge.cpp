@@ -13,8 +13,8 @@
 #include "cli/output.h"
 #include "core/base/input_error.h"
 #include "fuzz/campaign/judge_again.h"
-#include "reports/text/changes_text.h"
 #include "reports/text/junit.h"
+#include "reports/text/record_text.h"
 #include "reports/text/text.h"
 #include "scenarios/codec/json_file.h"
 

@@ -5,7 +5,7 @@
 
 #include "cli/command.h"
 #include "core/base/input_error.h"
-#include "fuzz/campaign/merge.h"
+#include "fuzz/campaign/shard.h"
 #include "fuzz/triage/ledger.h"
 #include "reports/text/text.h"
 

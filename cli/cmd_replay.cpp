@@ -14,7 +14,7 @@
 #include "fuzz/ask/evidence.h"
 #include "fuzz/ask/judged_case.h"
 #include "fuzz/campaign/campaign.h"
-#include "reports/text/replay_text.h"
+#include "reports/text/record_text.h"
 #include "reports/text/text.h"
 #include "scenarios/import/real_scene.h"
 #include "scenarios/text/printable.h"

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <optional>
 
+#include "cli/causes_of_campaign.h"
 #include "cli/command.h"
 #include "cli/engine_catalog.h"
-#include "cli/engine_paths.h"
 #include "cli/engines_by_card.h"
 #include "cli/npm_releases.h"
 #include "cli/output.h"
@@ -16,7 +16,7 @@
 #include "fuzz/campaign/campaign.h"
 #include "fuzz/causes/causes.h"
 #include "fuzz/certify/conformance.h"
-#include "reports/text/versions_text.h"
+#include "reports/text/record_text.h"
 #include "scenarios/codec/case_codec.h"
 #include "scenarios/codec/json_file.h"
 #include "scenarios/text/name_list.h"

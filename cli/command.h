@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-#include "scenarios/text/shell_word.h"
+#include "scenarios/text/printable.h"
 
 namespace touchstone::cli {
 

@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/command.h"
-#include "cli/corpus_text.h"
 #include "cli/in_parallel.h"
 #include "cli/output.h"
 #include "core/base/input_error.h"

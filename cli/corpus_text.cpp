@@ -1,4 +1,4 @@
-#include "cli/corpus_text.h"
+#include "cli/corpus_run.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "cli/engine_paths.h"
+#include "cli/causes_of_campaign.h"
 
 #include <algorithm>
 #include <string>

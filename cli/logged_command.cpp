@@ -8,9 +8,9 @@
 #include <fstream>
 #include <memory>
 
-#include "cli/program_on_path.h"
+#include "cli/installed.h"
 #include "core/base/input_error.h"
-#include "scenarios/text/shell_word.h"
+#include "scenarios/text/printable.h"
 
 namespace touchstone::cli {
 namespace {

@@ -16,7 +16,7 @@
 #include "cli/npm_releases.h"
 #include "core/base/input_error.h"
 #include "scenarios/codec/json_file.h"
-#include "scenarios/text/shell_word.h"
+#include "scenarios/text/printable.h"
 
 namespace touchstone::cli {
 namespace {

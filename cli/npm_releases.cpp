@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/engine_catalog.h"
+#include "cli/installed.h"
 #include "cli/logged_command.h"
-#include "cli/program_on_path.h"
 #include "core/base/input_error.h"
 #include "scenarios/codec/json_file.h"
 #include "scenarios/text/name_list.h"

@@ -8,7 +8,7 @@
 #include "cli/npm_engines.h"
 #include "cli/own_engines.h"
 #include "fuzz/reproduce/reproducer.h"
-#include "scenarios/text/shell_word.h"
+#include "scenarios/text/printable.h"
 
 namespace touchstone::cli {
 namespace {

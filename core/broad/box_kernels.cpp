@@ -1,4 +1,4 @@
-#include "core/broad/box_kernels.h"
+#include "core/broad/pair_kernels.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/broad/box_kernels.h"
 #include "core/broad/pair_kernels.h"
 #include "core/broad/release.h"
 

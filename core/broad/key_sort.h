@@ -17,4 +17,14 @@ inline std::uint32_t unsigned_key(std::int32_t key) { return static_cast<std::ui
 /// Sorts `items` by key; `scratch` is overwritten.
 void sort_by_key(std::vector<KeyedSlot>& items, std::vector<KeyedSlot>& scratch);
 
+// Order along a Z-shaped curve (Morton 1966): neighbours in space are mostly neighbours in order.
+
+/// The lowest 10 bits of x, with two zeros between neighbouring bits.
+inline std::uint32_t spread_bits(std::uint32_t x) {
+  x = (x | x << 16) & 0x030000ff;
+  x = (x | x << 8) & 0x0300f00f;
+  x = (x | x << 4) & 0x030c30c3;
+  return (x | x << 2) & 0x09249249;
+}
+
 }  // namespace touchstone::broad

@@ -2,8 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include "core/broad/broad_phase.h"
+#include "core/broad/float_key.h"
 #include "core/broad/pair_sink.h"
 
 namespace touchstone::broad {
@@ -55,5 +58,10 @@ void scan_range(const BoxColumns& from, std::size_t i, const BoxColumns& boxes, 
 /// ignored.
 std::uint32_t overlap_mask_16(const BoxColumns& from, std::size_t i, const BoxColumns& boxes,
                               std::size_t begin);
+
+/// Stores box m of `moves` at index at[m]: the box, its keys, and the largest change of its coordinates
+/// (capped at largest_step; the difference of two infinities counts as 0).
+void put_boxes(std::span<const BoxUpdate> moves, const std::uint32_t* at, Aabb* boxes, KeyBox* keys,
+               float* steps);
 
 }  // namespace touchstone::broad

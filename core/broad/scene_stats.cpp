@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/broad/morton.h"
+#include "core/broad/key_sort.h"
 #include "core/broad/pair_kernels.h"
 
 namespace touchstone::broad {

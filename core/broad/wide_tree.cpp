@@ -4,7 +4,7 @@
 #include <bit>
 #include <stdexcept>
 
-#include "core/broad/morton.h"
+#include "core/broad/key_sort.h"
 #include "core/broad/node_split.h"
 
 namespace touchstone::broad {

@@ -8,7 +8,7 @@
 // (exact_root.h). Bits: a corner 54 more than the spread of exponents, the cubic three times that, a
 // remainder sequence twenty times the cubic. Termination: the candidates are finitely many, and each is
 // decided.
-#include "core/impact/primitive_exact.h"
+#include "core/impact/primitive_volume.h"
 
 #include <cmath>
 #include <limits>

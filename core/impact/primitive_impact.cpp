@@ -16,7 +16,6 @@
 
 #include <cmath>
 
-#include "core/impact/primitive_exact.h"
 #include "core/impact/primitive_polygon.h"
 #include "core/impact/primitive_separate.h"
 #include "core/impact/primitive_volume.h"

@@ -1,4 +1,4 @@
-#include "core/narrow/batch.h"
+#include "core/narrow/narrow_phase.h"
 
 #include <algorithm>
 #include <stdexcept>

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 
 #include "core/narrow/collider.h"
 #include "core/narrow/result.h"
@@ -58,5 +59,15 @@ ContactAnswer contact(const PlacedShape& a, const PlacedShape& b, Arithmetic ari
 /// Reduces a manifold to at most four points: the deepest, the one farthest from it, and on either side of
 /// the line through both the one that spans the largest area.
 Manifold reduced(const ContactAnswer& contact);
+
+// One pair of shapes in many pairs of poses: samples of a path, of a grasp, of a configuration space. The
+// answers are those of overlap() for each pair of poses, bit for bit, on every processor. Two boxes are
+// tested several poses at a time, one in each lane of the processor's vectors; other shapes one after the
+// other.
+
+/// out[i]: whether A at poses_a[i] and B at poses_b[i] overlap, as overlap(a.at(poses_a[i]),
+/// b.at(poses_b[i])). Throws std::invalid_argument unless the three are of the same length.
+void overlaps(const Collider& a, std::span<const Pose> poses_a, const Collider& b,
+              std::span<const Pose> poses_b, std::span<OverlapAnswer> out);
 
 }  // namespace touchstone

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "reports/record/examples.h"
-#include "scenarios/random/case_size.h"
+#include "scenarios/random/numbers.h"
 
 namespace touchstone::fuzz {
 

@@ -7,11 +7,11 @@
 #include "fuzz/ask/degeneracy.h"
 #include "fuzz/ask/magnitude.h"
 #include "fuzz/ask/novelty.h"
-#include "fuzz/ask/shapes_of.h"
 #include "fuzz/ask/unstable.h"
 #include "fuzz/judge/judge.h"
 #include "oracles/abi/last_words.h"
 #include "oracles/abi/measure.h"
+#include "reports/record/result.h"
 #include "scenarios/codec/case_codec.h"
 
 namespace touchstone::fuzz {

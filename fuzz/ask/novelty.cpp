@@ -6,7 +6,7 @@
 #include "core/base/hash.h"
 #include "fuzz/ask/degeneracy.h"
 #include "fuzz/ask/magnitude.h"
-#include "fuzz/ask/shapes_of.h"
+#include "reports/record/result.h"
 #include "scenarios/random/mutate.h"
 
 namespace touchstone::fuzz {

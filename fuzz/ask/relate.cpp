@@ -8,9 +8,9 @@
 #include "fuzz/ask/asked_case.h"
 #include "fuzz/ask/degeneracy.h"
 #include "fuzz/ask/magnitude.h"
-#include "fuzz/ask/shapes_of.h"
 #include "fuzz/ask/unstable.h"
 #include "fuzz/judge/relation.h"
+#include "reports/record/result.h"
 #include "scenarios/value/invalid_numbers.h"
 
 namespace touchstone::fuzz {

@@ -1,4 +1,4 @@
-#include "fuzz/campaign/merge.h"
+#include "fuzz/campaign/shard.h"
 
 #include <fmt/format.h>
 

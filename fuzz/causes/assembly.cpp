@@ -10,9 +10,9 @@
 
 #include "core/base/exact_text.h"
 #include "core/base/hash.h"
-#include "fuzz/ask/shapes_of.h"
+#include "fuzz/causes/classes.h"
 #include "fuzz/causes/name.h"
-#include "fuzz/causes/rates.h"
+#include "reports/record/result.h"
 #include "scenarios/codec/case_codec.h"
 
 namespace touchstone::fuzz {

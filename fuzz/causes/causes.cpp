@@ -6,9 +6,7 @@
 #include <set>
 
 #include "fuzz/causes/assembly.h"
-#include "fuzz/causes/evidence_of_cause.h"
-#include "fuzz/causes/order.h"
-#include "fuzz/causes/rates.h"
+#include "fuzz/causes/classes.h"
 
 namespace touchstone::fuzz {
 namespace {

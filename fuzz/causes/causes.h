@@ -1,5 +1,5 @@
 // From the findings of a campaign to the distinct causes behind them: fold, reduce, intervene, group, name
-// and order (issue "causes"; reports/record/causes.h).
+// and order (reports/record/causes.h).
 #pragma once
 
 #include <atomic>
@@ -45,5 +45,15 @@ Causes causes_of(const CampaignResult& result, const CausesConfig& config);
 
 /// A part of causes_of: the representatives of all classes, examined.
 std::vector<Representative> examined(const std::vector<FindingClass>& classes, const CausesConfig& config);
+
+/// Asks the engine about both cases of the representative and fills in shown, smallest, certificate and
+/// program. Leaves out what the engine no longer shows.
+void add_evidence(Cause& cause, const Representative& r, const CausesConfig& config, EnginePool& pool);
+
+/// The documented ones last; then by severity; of equal severity, most unlike first: after the most frequent,
+/// always the one whose nearest predecessor of that severity is farthest (furthest point first; Chen et al.,
+/// "Taming compiler fuzzers", PLDI 2013, §3). `distance` is between indices. Returns the indices in order.
+std::vector<std::size_t> reading_order(const std::vector<Cause>& causes,
+                                       const std::function<double(std::size_t, std::size_t)>& distance);
 
 }  // namespace touchstone::fuzz

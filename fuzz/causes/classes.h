@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -63,5 +64,11 @@ enum class Contradictions { explained, apart };
 /// asking. The result must outlive the classes.
 std::vector<FindingClass> classes_of(const CampaignResult& result, const EngineKnowledge& knowledge,
                                      Contradictions contradictions = Contradictions::explained);
+
+/// How many answers the findings' engines gave to such questions about such shapes.
+std::uint64_t asked_about(const CampaignResult& result, std::span<const Finding* const> findings);
+
+/// Wrong answers of each class, divided by the answers to such questions.
+std::vector<double> rates_of(const std::vector<FindingClass>& classes, const CampaignResult& result);
 
 }  // namespace touchstone::fuzz

@@ -1,11 +1,11 @@
-#include "fuzz/causes/evidence_of_cause.h"
+#include "fuzz/causes/causes.h"
 
 #include <utility>
 
 #include "core/base/input_error.h"
 #include "fuzz/ask/evidence.h"
 #include "scenarios/codec/case_codec.h"
-#include "scenarios/random/case_size.h"
+#include "scenarios/random/numbers.h"
 
 namespace touchstone::fuzz {
 namespace {

@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "fuzz/ask/evidence.h"
-#include "fuzz/ask/shapes_of.h"
 #include "fuzz/causes/parting.h"
 #include "fuzz/causes/respond.h"
 #include "fuzz/judge/judge.h"
 #include "fuzz/shrink/keeps_finding.h"
+#include "reports/record/result.h"
 
 namespace touchstone::fuzz {
 namespace {

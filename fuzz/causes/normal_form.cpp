@@ -1,4 +1,4 @@
-#include "fuzz/causes/normal_form.h"
+#include "fuzz/causes/plain_cases.h"
 
 #include <algorithm>
 #include <span>
@@ -7,7 +7,6 @@
 #include "core/base/input_error.h"
 #include "fuzz/causes/intervention.h"
 #include "fuzz/causes/interventions/true_pair.h"
-#include "fuzz/causes/plain_cases.h"
 #include "fuzz/judge/truth.h"
 
 namespace touchstone::fuzz {

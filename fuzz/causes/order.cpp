@@ -1,4 +1,4 @@
-#include "fuzz/causes/order.h"
+#include "fuzz/causes/causes.h"
 
 #include <algorithm>
 #include <limits>

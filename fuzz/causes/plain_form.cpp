@@ -1,4 +1,4 @@
-#include "fuzz/causes/plain_form.h"
+#include "fuzz/causes/plain_cases.h"
 
 #include <tuple>
 #include <vector>

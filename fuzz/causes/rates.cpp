@@ -1,4 +1,4 @@
-#include "fuzz/causes/rates.h"
+#include "fuzz/causes/classes.h"
 
 #include <set>
 #include <string>

@@ -5,14 +5,13 @@
 #include <utility>
 
 #include "fuzz/causes/kept.h"
-#include "fuzz/causes/normal_form.h"
-#include "fuzz/causes/plain_form.h"
+#include "fuzz/causes/plain_cases.h"
 #include "fuzz/judge/relation.h"
 #include "fuzz/shrink/canonical.h"
 #include "fuzz/shrink/defensible.h"
 #include "fuzz/shrink/shrink_both.h"
 #include "scenarios/codec/case_codec.h"
-#include "scenarios/random/case_size.h"
+#include "scenarios/random/numbers.h"
 
 namespace touchstone::fuzz {
 namespace {

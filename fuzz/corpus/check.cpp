@@ -1,4 +1,4 @@
-#include "fuzz/corpus/check.h"
+#include "fuzz/corpus/corpus_json.h"
 
 #include <cmath>
 #include <nlohmann/json.hpp>

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -62,5 +63,15 @@ struct CorpusCase {
 std::vector<Question> questions_about(const Scene& s);
 /// With these questions.
 Case as_case(const std::string& id, Scene scene);
+
+/// One file of the corpus.
+struct Part {
+  std::string name;  // of its file, without .json; ids begin with it
+  std::vector<Seed> seeds;
+};
+
+/// Reported failures and causes, from `directory`/*.json; ladders, handmade scenarios and the lattice, from
+/// this program. Sorted by name. Throws InputError.
+std::vector<Part> all_parts(const std::filesystem::path& directory);
 
 }  // namespace touchstone::fuzz::corpus

@@ -1,4 +1,4 @@
-// The JSON of the corpus; its schema is corpus/schema.json.
+// The JSON of the corpus, whose schema is corpus/schema.json, and whether the certificates in it hold.
 #pragma once
 
 #include <filesystem>
@@ -30,5 +30,17 @@ struct StoredCorpusCase {
 
 /// The cases of DIR/cases/*.json, sorted by file. Throws InputError, also when there is none.
 std::vector<StoredCorpusCase> load_corpus(const std::filesystem::path& directory);
+
+struct CheckedCase {
+  int certificates = 0;  // that hold and prove what the case says
+  /// Which one does not, and why; empty if all hold.
+  std::string refused;
+  /// Verdict and both ends of the gap, or the whole impact, have a certificate.
+  bool complete = false;
+};
+
+/// By the checker (oracles/checker) alone, not the referee. Throws InputError if a certificate cannot be
+/// read.
+CheckedCase check_certificates(const StoredCorpusCase& c);
 
 }  // namespace touchstone::fuzz::corpus

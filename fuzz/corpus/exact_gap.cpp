@@ -1,4 +1,4 @@
-#include "fuzz/corpus/exact_gap.h"
+#include "fuzz/corpus/truth.h"
 
 #include <boost/multiprecision/integer.hpp>
 #include <cmath>

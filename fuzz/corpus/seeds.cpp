@@ -1,4 +1,4 @@
-#include "fuzz/corpus/seeds.h"
+#include "fuzz/corpus/corpus_case.h"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fuzz/corpus/exact_gap.h"
 #include "scenarios/codec/json_file.h"
 #include "scenarios/codec/value_codec.h"
 

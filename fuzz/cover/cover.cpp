@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/input_error.h"
-#include "fuzz/cover/uncovered.h"
+#include "fuzz/cover/exact_hull.h"
 
 namespace touchstone::fuzz {
 namespace {

@@ -1,4 +1,5 @@
-// The facets of a convex hull, found with exact signs.
+// The facets of a convex hull, found with exact signs, and whether hulls cover a triangle: the hulls are
+// taken away from the triangle one after the other, in rational numbers.
 #pragma once
 
 #include <array>
@@ -8,6 +9,7 @@
 
 #include "core/math/aabb.h"
 #include "core/math/pose.h"
+#include "oracles/referee/exact/rational.h"
 
 namespace touchstone::fuzz {
 
@@ -26,5 +28,11 @@ std::optional<ExactHull> exact_hull(std::span<const Vec3> points);
 
 /// Whether the point is in the closed hull, exactly.
 bool contains(const ExactHull& hull, const Vec3& p);
+
+using Triangle = std::array<Vec3, 3>;
+
+/// A point of the closed triangle (also one that is flat: a segment or a point) that is in none of the closed
+/// hulls; nullopt if every point is in one. Both are exact.
+std::optional<referee::Rational3> uncovered_point(const Triangle& t, std::span<const ExactHull> pieces);
 
 }  // namespace touchstone::fuzz

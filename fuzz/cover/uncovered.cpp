@@ -1,4 +1,4 @@
-#include "fuzz/cover/uncovered.h"
+#include "fuzz/cover/exact_hull.h"
 
 #include <algorithm>
 #include <vector>

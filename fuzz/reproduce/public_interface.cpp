@@ -1,4 +1,4 @@
-#include "fuzz/reproduce/public_interface.h"
+#include "fuzz/reproduce/other_programs.h"
 
 #include <fmt/format.h>
 

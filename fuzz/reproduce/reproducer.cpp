@@ -8,8 +8,7 @@
 #include "core/base/input_error.h"
 #include "fuzz/judge/relation.h"
 #include "fuzz/judge/truth.h"
-#include "fuzz/reproduce/javascript.h"
-#include "fuzz/reproduce/public_interface.h"
+#include "fuzz/reproduce/other_programs.h"
 #include "oracles/reproducer/engine_source.h"
 #include "oracles/reproducer/source_text.h"
 
@@ -27,7 +26,6 @@ constexpr std::string_view program = R"(// @TITLE@
 // B: @SHAPE_B@
 @INCLUDES@
 #include <array>
-#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <utility>

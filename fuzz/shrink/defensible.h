@@ -2,6 +2,8 @@
 // a wrong answer cannot be put down to the input.
 #pragma once
 
+#include <vector>
+
 #include "scenarios/value/case.h"
 
 namespace touchstone::fuzz {
@@ -25,5 +27,10 @@ bool is_solid(const Case& c);
 
 /// The size that clear_share refers to; 0 when neither body has one (half-spaces).
 double smaller_size(const Scene& scene, int a, int b);
+
+/// The case itself, then changed ones, smallest change first: with plain numbers and volume, B moved so that
+/// the pair clearly overlaps or is clearly apart, an approach that meets within the step, all shapes a little
+/// larger or smaller. Only valid scenes; up to about a hundred. Whether they are defensible is not examined.
+std::vector<Case> defensible_forms(const Case& c);
 
 }  // namespace touchstone::fuzz

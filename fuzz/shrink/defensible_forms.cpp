@@ -1,11 +1,10 @@
-#include "fuzz/shrink/defensible_forms.h"
+#include "fuzz/shrink/defensible.h"
 
 #include <cmath>
 #include <optional>
 
 #include "core/base/input_error.h"
 #include "fuzz/ask/degeneracy.h"
-#include "fuzz/shrink/defensible.h"
 #include "fuzz/shrink/reductions.h"
 #include "oracles/referee/referee.h"
 #include "scenarios/random/numbers.h"

@@ -9,7 +9,6 @@
 #include <string_view>
 #include <vector>
 
-#include "scenarios/random/case_size.h"
 #include "scenarios/random/numbers.h"
 #include "scenarios/value/case.h"
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "fuzz/shrink/defensible.h"
-#include "fuzz/shrink/defensible_forms.h"
 
 namespace touchstone::fuzz {
 namespace {

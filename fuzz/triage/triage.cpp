@@ -11,7 +11,7 @@
 #include <tuple>
 
 #include "core/base/input_error.h"
-#include "reports/record/fault_kind.h"
+#include "reports/record/result.h"
 #include "reports/record/stored.h"
 #include "scenarios/codec/case_codec.h"
 #include "scenarios/codec/json_file.h"

@@ -1,4 +1,4 @@
-#include "oracles/abi/outer_box.h"
+#include "oracles/abi/plugin_scene.h"
 
 #include <cmath>
 

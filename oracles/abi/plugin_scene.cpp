@@ -7,7 +7,6 @@
 #include <string>
 #include <utility>
 
-#include "oracles/abi/outer_box.h"
 #include "scenarios/value/engine_card.h"
 
 namespace touchstone {

@@ -7,7 +7,10 @@
 #include <optional>
 #include <vector>
 
+#include "core/math/aabb.h"
+#include "core/math/pose.h"
 #include "core/scene/scene.h"
+#include "core/shape/shape.h"
 #include "oracles/abi/touchstone_engine.h"
 #include "scenarios/value/observation.h"
 
@@ -95,5 +98,9 @@ class AnswerCollector {
   Observation seen_;
   const char* fault_ = nullptr;
 };
+
+/// Rounded outward; infinite for a half-space. Exact up to the last rounding if the rotation is the identity.
+/// A shape of negative or NaN sizes gives a box whose upper side is below its lower one, or NaN.
+Aabb outer_box(const Shape& shape, const Pose& pose);
 
 }  // namespace touchstone

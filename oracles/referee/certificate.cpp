@@ -3,7 +3,7 @@
 #include "oracles/checker/checker.h"
 #include "oracles/referee/exact/exact_pair.h"
 #include "oracles/referee/filter/half_space.h"
-#include "oracles/referee/filter/wide_search.h"
+#include "oracles/referee/filter/wide.h"
 #include "oracles/referee/solid/solid.h"
 #include "oracles/referee/work.h"
 

@@ -10,14 +10,44 @@
 #include <string_view>
 #include <vector>
 
-#include "reports/record/evidence.h"
+#include "core/base/outcome.h"
 #include "reports/record/examples.h"
 #include "reports/record/observation_json.h"
+#include "scenarios/value/case.h"
 #include "scenarios/value/engine_card.h"
 #include "scenarios/value/judgement.h"
 #include "scenarios/value/observation.h"
 
 namespace touchstone::fuzz {
+
+/// As values; fuzz/ask/evidence.h writes them as JSON, with a certificate that `touchstone check` verifies.
+struct Evidence {
+  Case c;
+  Observation observation;
+  ReceivedScene received;
+  Certificate certificate;
+  int a = -1, b = -1;  // bodies A and B of the certificate; a < 0: it is not about a pair
+  int step = -1;       // >= 0: poses at that query of the script; < 0: the bodies' own
+  Question question = Question::overlap;
+};
+
+/// The fault without the site that a failure is named by: "crashed" of "crashed_distance-inl-h-177". A site
+/// has a line number or a function's name, so the next version of an engine crashes at "another" site.
+constexpr std::string_view kind_of_fault(std::string_view fault) {
+  for (const std::string_view outcome : outcome_names)
+    if (fault.size() > outcome.size() && fault.starts_with(outcome) && fault[outcome.size()] == '_')
+      return outcome;
+  return fault;
+}
+
+/// "box-sphere", in alphabetical order; "scene" when a and b name no bodies.
+inline std::string shapes_of(const Case& c, int a, int b) {
+  const int n = static_cast<int>(c.scene.bodies.size());
+  if (a < 0 || b < 0 || a >= n || b >= n) return "scene";
+  auto x = type_name(c.scene.shape_of(a)), y = type_name(c.scene.shape_of(b));
+  if (y < x) std::swap(x, y);
+  return std::string(x) + "-" + std::string(y);
+}
 
 inline constexpr double tail_quantile = 0.99;  // printed and stored as p99
 

@@ -9,6 +9,7 @@
 
 #include "reports/record/causes.h"
 #include "reports/record/observation_json.h"
+#include "scenarios/codec/json_file.h"
 #include "scenarios/value/case.h"
 
 namespace touchstone::fuzz {
@@ -61,6 +62,8 @@ struct Triaged {
 };
 
 /// The case of a cause in the ledger. Throws InputError when it is damaged; null when there is none.
-Json case_json_of(const KnownCause& k);
+inline Json case_json_of(const KnownCause& k) {
+  return k.shown.empty() ? Json() : parse_json(k.shown, "ledger, " + k.id);
+}
 
 }  // namespace touchstone::fuzz

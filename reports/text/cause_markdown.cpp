@@ -8,7 +8,6 @@
 #include "reports/text/causes_text.h"
 #include "reports/text/text.h"
 #include "scenarios/text/printable.h"
-#include "scenarios/text/shell_word.h"
 
 namespace touchstone::reports {
 namespace {

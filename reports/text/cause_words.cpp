@@ -7,7 +7,6 @@
 
 #include "reports/text/text.h"
 #include "scenarios/text/printable.h"
-#include "scenarios/text/shell_word.h"
 
 namespace touchstone::reports {
 

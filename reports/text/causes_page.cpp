@@ -1,7 +1,7 @@
 // The data of the page `causes`: the record with what the page does not work out itself.
 #include "reports/text/cause_words.h"
 #include "reports/text/causes_text.h"
-#include "scenarios/text/shell_word.h"
+#include "scenarios/text/printable.h"
 
 namespace touchstone::reports {
 namespace {

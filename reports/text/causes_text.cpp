@@ -9,7 +9,6 @@
 #include "reports/text/cause_words.h"
 #include "reports/text/text.h"
 #include "scenarios/text/printable.h"
-#include "scenarios/text/shell_word.h"
 
 namespace touchstone::reports {
 namespace {

@@ -1,4 +1,4 @@
-#include "reports/text/changes_text.h"
+#include "reports/text/record_text.h"
 
 #include <fmt/format.h>
 

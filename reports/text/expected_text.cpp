@@ -1,10 +1,9 @@
-#include "reports/text/expected_text.h"
+#include "reports/text/junit.h"
 
 #include <fmt/format.h>
 
 #include <map>
 
-#include "reports/text/junit.h"
 #include "reports/text/text.h"
 
 namespace touchstone::reports {

@@ -6,12 +6,16 @@
 
 #include "reports/record/assessment.h"
 #include "reports/record/broad_certificate.h"
+#include "reports/record/changes.h"
 #include "reports/record/chart.h"
+#include "reports/record/fingerprint.h"
+#include "reports/record/judged_case.h"
 #include "reports/record/motions.h"
 #include "reports/record/observation_json.h"
 #include "reports/record/plan.h"
 #include "reports/record/stability.h"
 #include "reports/record/triage.h"
+#include "reports/record/versions.h"
 
 namespace touchstone::reports {
 
@@ -81,5 +85,24 @@ fuzz::Json triage_json(const std::vector<fuzz::Triaged>& triaged);
 /// JUnit: one suite per path and one test per cause. New and back causes fail, and so do those whose
 /// suppression has ended; known ones are skipped, gone ones pass.
 std::string triage_junit(const std::vector<fuzz::Triaged>& triaged);
+
+/// At most 80 columns, except for the keys of findings; long lists are cut.
+std::string changes_text(const fuzz::ResultChanges& c);
+
+/// At most 80 columns.
+std::string replay_text(const fuzz::JudgedCase& judged);
+
+/// A block a cause, in 80 columns for up to six releases. Text from data is made printable.
+std::string versions_text(const fuzz::VersionTable& t);
+
+/// A heading and a table with one row a cause. Text from data is escaped.
+std::string versions_markdown(const fuzz::VersionTable& t);
+
+/// One line a question, and one for all.
+std::string fingerprint_text(const fuzz::Fingerprint& f);
+
+/// Which answers differ: one line a question and pair of shapes.
+std::string difference_text(const fuzz::Fingerprint& a, const fuzz::Fingerprint& b,
+                            const fuzz::FingerprintDifference& d);
 
 }  // namespace touchstone::reports

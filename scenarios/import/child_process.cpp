@@ -1,4 +1,4 @@
-#include "scenarios/import/child_process.h"
+#include "scenarios/import/mesh_import.h"
 
 #include <fcntl.h>
 #include <sys/resource.h>

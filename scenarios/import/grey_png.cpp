@@ -1,4 +1,4 @@
-#include "scenarios/import/grey_png.h"
+#include "scenarios/import/height_field.h"
 
 #include <zlib.h>
 

@@ -7,7 +7,6 @@
 
 #include "core/base/input_error.h"
 #include "scenarios/codec/scene_codec.h"
-#include "scenarios/import/grey_png.h"
 #include "scenarios/import/mesh_import.h"
 
 namespace touchstone {

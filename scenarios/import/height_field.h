@@ -1,6 +1,7 @@
 // Height fields as surfaces.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -35,5 +36,14 @@ void normalize(HeightGrid& grid);
 /// triangles, which share the diagonal from its corner of least x and y to the opposite one; they are
 /// counter-clockwise from above. Precondition: require_grid_size.
 TriangleMesh surface_of(const HeightGrid& grid, double half_x, double half_y, double height);
+
+struct GreyImage {
+  std::size_t width = 0, height = 0;
+  std::vector<std::uint8_t> pixels;  // row by row from the top
+};
+
+/// An image of 8-bit grey values without alpha, not interlaced. Throws InputError at `place` for any other,
+/// for one of more than `most_pixels`, and for damage: lengths, order and checksums of chunks are checked.
+GreyImage grey_png(const std::string& bytes, std::size_t most_pixels, const std::string& place);
 
 }  // namespace touchstone

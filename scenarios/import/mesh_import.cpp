@@ -19,7 +19,6 @@
 
 #include "core/base/input_error.h"
 #include "scenarios/codec/scene_codec.h"
-#include "scenarios/import/child_process.h"
 
 namespace touchstone {
 namespace {

@@ -1,9 +1,7 @@
-#include "scenarios/random/case_size.h"
+#include "scenarios/random/numbers.h"
 
 #include <bit>
 #include <cmath>
-
-#include "scenarios/random/numbers.h"
 
 namespace touchstone::fuzz {
 namespace {

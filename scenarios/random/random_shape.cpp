@@ -5,8 +5,6 @@
 #include <limits>
 #include <utility>
 
-#include "scenarios/random/solid_shapes.h"
-
 namespace touchstone::fuzz {
 namespace {
 

@@ -50,4 +50,15 @@ ShapeKind random_convex_kind(Rng& rng);
 /// Support value max n·x over the shape in its body frame; +inf for a half-space unless n is its normal.
 double support_value(const Shape& shape, const Vec3& n_local);
 
+/// With vertices at distance 1 along each axis.
+TriangleMesh octahedron();
+
+/// Each triangle split into four. The new vertices stay in place, so that the four are coplanar, or are
+/// projected to the unit sphere (`round`).
+TriangleMesh divided(const TriangleMesh& m, bool round);
+
+/// An octahedron, also divided and rounded; a star of random radii; a prism with an L for its base; a ring; a
+/// box with a cavity; a box.
+SolidMesh random_solid(Rng& rng, double scale);
+
 }  // namespace touchstone::fuzz

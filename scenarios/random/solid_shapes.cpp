@@ -1,4 +1,4 @@
-#include "scenarios/random/solid_shapes.h"
+#include "scenarios/random/random_shape.h"
 
 #include <cmath>
 #include <map>

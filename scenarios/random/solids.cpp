@@ -6,7 +6,6 @@
 #include "scenarios/random/families.h"
 #include "scenarios/random/place.h"
 #include "scenarios/random/random_shape.h"
-#include "scenarios/random/solid_shapes.h"
 
 namespace touchstone::fuzz {
 namespace {

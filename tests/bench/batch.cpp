@@ -8,7 +8,7 @@
 #include <cstring>
 
 #include "core/math/rng.h"
-#include "core/narrow/batch.h"
+#include "core/narrow/narrow_phase.h"
 #include "tests/bench/ticks.h"
 
 using namespace touchstone;

@@ -17,8 +17,8 @@
 #include <string>
 #include <vector>
 
+#include "cli/causes_of_campaign.h"
 #include "cli/engine_catalog.h"
-#include "cli/engine_paths.h"
 #include "core/base/input_error.h"
 #include "fuzz/ask/ask.h"
 #include "fuzz/ask/evidence.h"

@@ -2,8 +2,8 @@
 // supports must report the same pairs.
 #include <hwy/targets.h>
 
-#include "core/broad/box_kernels.h"
 #include "core/broad/catalog.h"
+#include "core/broad/pair_kernels.h"
 #include "tests/core/broad_boxes.h"
 #include "tests/support/catch.h"
 

@@ -5,8 +5,8 @@
 #include <stdexcept>
 
 #include "core/math/rng.h"
-#include "core/narrow/batch.h"
 #include "core/narrow/filtered/box_lanes.h"
+#include "core/narrow/narrow_phase.h"
 #include "tests/support/catch.h"
 
 using namespace touchstone;

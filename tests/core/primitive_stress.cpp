@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "core/impact/primitive_exact.h"
 #include "core/impact/primitive_impact.h"
+#include "core/impact/primitive_volume.h"
 #include "scenarios/random/primitive_motions.h"
 
 int main(int argc, char** argv) {

@@ -8,7 +8,7 @@
 #include "oracles/checker/checker.h"
 #include "oracles/referee/referee.h"
 #include "scenarios/random/family.h"
-#include "scenarios/random/solid_shapes.h"
+#include "scenarios/random/random_shape.h"
 #include "tests/support/catch.h"
 #include "tests/support/l_shape.h"
 

@@ -2,9 +2,8 @@
 #include <cmath>
 
 #include "core/base/input_error.h"
-#include "fuzz/corpus/check.h"
-#include "fuzz/corpus/exact_gap.h"
-#include "fuzz/corpus/seeds.h"
+#include "fuzz/corpus/corpus_case.h"
+#include "fuzz/corpus/corpus_json.h"
 #include "fuzz/corpus/truth.h"
 #include "tests/support/catch.h"
 

@@ -7,7 +7,7 @@
 
 #include "core/base/input_error.h"
 #include "core/math/rng.h"
-#include "fuzz/cover/uncovered.h"
+#include "fuzz/cover/exact_hull.h"
 #include "tests/support/catch.h"
 
 using namespace touchstone;

@@ -14,7 +14,7 @@
 #include "fuzz/campaign/answers_file.h"
 #include "fuzz/campaign/campaign.h"
 #include "fuzz/campaign/judge_again.h"
-#include "fuzz/campaign/merge.h"
+#include "fuzz/campaign/shard.h"
 #include "fuzz/campaign/store.h"
 #include "oracles/core/core_engine.h"
 #include "reports/record/changes.h"

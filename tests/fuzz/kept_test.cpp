@@ -8,7 +8,7 @@
 #include "fuzz/ask/evidence.h"
 #include "fuzz/campaign/campaign.h"
 #include "fuzz/causes/causes.h"
-#include "fuzz/causes/plain_form.h"
+#include "fuzz/causes/plain_cases.h"
 #include "fuzz/shrink/defensible.h"
 #include "fuzz/shrink/shrink_both.h"
 #include "oracles/core/core_engine.h"

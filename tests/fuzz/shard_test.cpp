@@ -11,7 +11,6 @@
 #include <sstream>
 
 #include "core/base/input_error.h"
-#include "fuzz/campaign/merge.h"
 #include "fuzz/campaign/shard.h"
 #include "fuzz/triage/ledger.h"
 #include "fuzz/triage/triage.h"

@@ -6,7 +6,6 @@
 #include <set>
 
 #include "fuzz/shrink/defensible.h"
-#include "fuzz/shrink/defensible_forms.h"
 #include "fuzz/shrink/keeps_finding.h"
 #include "scenarios/random/family.h"
 #include "tests/mutants/lying_engine.h"

@@ -7,7 +7,6 @@
 #include "core/base/hash.h"
 #include "core/math/rng.h"
 #include "core/scene/scene.h"
-#include "oracles/abi/outer_box.h"
 #include "oracles/abi/plugin_scene.h"
 #include "tests/support/catch.h"
 

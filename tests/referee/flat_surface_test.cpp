@@ -1,5 +1,5 @@
 // Where a mesh is a plane as far as a body reaches, it has a least depth.
-#include "oracles/referee/region/flat_surface.h"
+#include "oracles/referee/region/contact_region.h"
 
 #include <cmath>
 

@@ -5,7 +5,7 @@
 #include "core/tolerance.h"
 #include "oracles/referee/referee.h"
 #include "scenarios/random/family.h"
-#include "scenarios/random/solid_shapes.h"
+#include "scenarios/random/random_shape.h"
 #include "tests/support/catch.h"
 #include "tests/support/l_shape.h"
 

@@ -2,8 +2,8 @@
 #include "reports/record/expected.h"
 
 #include "core/base/input_error.h"
-#include "reports/record/fault_kind.h"
-#include "reports/text/expected_text.h"
+#include "reports/record/result.h"
+#include "reports/text/junit.h"
 #include "tests/support/catch.h"
 
 using namespace touchstone;

@@ -2,8 +2,7 @@
 #include "tests/support/catch.h"
 
 #include "reports/record/judged_case.h"
-#include "reports/text/changes_text.h"
-#include "reports/text/replay_text.h"
+#include "reports/text/record_text.h"
 
 using namespace touchstone;
 

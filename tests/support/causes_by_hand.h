@@ -10,7 +10,7 @@
 #include <string>
 
 #include "reports/record/causes.h"
-#include "reports/record/fault_kind.h"
+#include "reports/record/result.h"
 
 namespace touchstone::test {
 

@@ -12,7 +12,7 @@
 #include <numbers>
 
 #include "fuzz/judge/check.h"
-#include "oracles/referee/region/flat_surface.h"
+#include "oracles/referee/region/contact_region.h"
 
 namespace touchstone::fuzz {
 namespace {

@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "oracles/referee/counters.h"
+#include "oracles/referee/filter/inner_polytope.h"
 #include "oracles/referee/filter/minkowski.h"
-#include "oracles/referee/filter/part_bound.h"
-#include "oracles/referee/filter/wide_search.h"
+#include "oracles/referee/filter/wide.h"
 #include "oracles/referee/limits.h"
 #include "oracles/referee/work.h"
 

@@ -7,7 +7,7 @@
 #include "oracles/referee/exact/exact_point.h"
 #include "oracles/referee/filter/convex.h"
 #include "oracles/referee/filter/half_space.h"
-#include "oracles/referee/filter/wide_search.h"
+#include "oracles/referee/filter/wide.h"
 #include "oracles/referee/solid/solid.h"
 #include "oracles/referee/work.h"
 

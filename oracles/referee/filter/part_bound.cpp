@@ -1,6 +1,6 @@
 // Which parts: the points that the nearest facet or simplex takes from a polytope, one by one and in pairs,
 // and the whole pair's nearest point in a curved core.
-#include "oracles/referee/filter/part_bound.h"
+#include "oracles/referee/filter/inner_polytope.h"
 
 #include <vector>
 

@@ -1,4 +1,4 @@
-#include "oracles/referee/filter/wide_search.h"
+#include "oracles/referee/filter/wide.h"
 
 #include <algorithm>
 #include <map>
@@ -11,7 +11,6 @@
 #include "oracles/referee/exact/exact_pair.h"
 #include "oracles/referee/exact/exact_point.h"
 #include "oracles/referee/filter/gjk.h"
-#include "oracles/referee/filter/wide.h"
 #include "oracles/referee/work.h"
 
 namespace touchstone::referee {

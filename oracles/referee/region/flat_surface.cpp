@@ -1,4 +1,4 @@
-#include "oracles/referee/region/flat_surface.h"
+#include "oracles/referee/region/contact_region.h"
 
 #include <algorithm>
 #include <array>

@@ -8,7 +8,6 @@
 #include "core/base/input_error.h"
 #include "scenarios/import/model/mjcf_cable.h"
 #include "scenarios/import/model/mjcf_document.h"
-#include "scenarios/import/model/mjcf_shapes.h"
 #include "scenarios/import/model/names.h"
 #include "scenarios/import/model/readers.h"
 #include "scenarios/import/pose_algebra.h"

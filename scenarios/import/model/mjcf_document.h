@@ -4,10 +4,12 @@
 #include <deque>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "core/shape/shape.h"
 #include "scenarios/import/import_context.h"
 #include "scenarios/import/model/mjcf_defaults.h"
 
@@ -57,5 +59,13 @@ class MjcfDocument {
   std::map<std::pair<std::string, std::string>, XmlElement> assets_;
   bool filters_parents_ = true;
 };
+
+/// The shape of a geom; `fromto` replaces its pose. Nothing for what cannot be represented, if
+/// ImportContext::refuse lets it pass. Throws InputError.
+std::optional<Shape> mjcf_shape(const MjcfElement& geom, const MjcfDocument& document, ImportContext& context,
+                                Pose& pose);
+
+/// A sphere, capsule, cylinder, box or ellipsoid of MJCF's sizes. Throws InputError at `e` for too few.
+Shape sized_shape(const std::string& type, const std::vector<double>& size, const XmlElement& e);
 
 }  // namespace touchstone

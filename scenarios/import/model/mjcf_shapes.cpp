@@ -1,4 +1,4 @@
-#include "scenarios/import/model/mjcf_shapes.h"
+#include "scenarios/import/model/mjcf_document.h"
 
 #include <algorithm>
 #include <cmath>

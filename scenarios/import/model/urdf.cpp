@@ -7,7 +7,7 @@
 #include "scenarios/import/model/names.h"
 #include "scenarios/import/model/readers.h"
 #include "scenarios/import/pose_algebra.h"
-#include "scenarios/text/shell_word.h"
+#include "scenarios/text/printable.h"
 
 namespace touchstone {
 namespace {

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstdint>
 
-#include "scenarios/import/grey_png.h"
 #include "tests/scenarios/import/expect_error.h"
 #include "tests/scenarios/import/temp_dir.h"
 #include "tests/support/catch.h"

@@ -1,4 +1,4 @@
-// Which Debian packages Touchstone needs, and which of them are installed.
+// What is installed: Debian packages, and the programs that the user names as in a shell.
 #pragma once
 
 #include <filesystem>
@@ -19,5 +19,8 @@ std::vector<DebianPackage> packages_in(const std::filesystem::path& file);
 bool has_dpkg();
 /// Precondition: has_dpkg().
 bool is_installed(const std::string& package);
+
+/// The first executable file of that name in the directories of $PATH; empty: there is none.
+std::string program_on_path(const std::string& name);
 
 }  // namespace touchstone::cli

@@ -1,4 +1,6 @@
-#include "cli/debian_packages.h"
+#include "cli/installed.h"
+
+#include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
@@ -6,7 +8,6 @@
 #include <fstream>
 #include <sstream>
 
-#include "cli/program_on_path.h"
 #include "core/base/input_error.h"
 #include "scenarios/codec/json_file.h"
 
@@ -47,6 +48,16 @@ bool is_installed(const std::string& package) {
   const std::string command =
       "dpkg-query -W -f '${Status}' " + package + " 2>/dev/null | grep -q 'ok installed'";
   return std::system(command.c_str()) == 0;
+}
+
+std::string program_on_path(const std::string& name) {
+  const char* path = std::getenv("PATH");
+  std::stringstream directories(path ? path : "");
+  for (std::string directory; std::getline(directories, directory, ':');)
+    if (const std::string file = directory + "/" + name;
+        !directory.empty() && access(file.c_str(), X_OK) == 0)
+      return file;
+  return "";
 }
 
 }  // namespace touchstone::cli
