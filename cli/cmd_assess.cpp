@@ -148,7 +148,7 @@ Run declare_assess(CLI::App& app) {
       ->capture_default_str();
   add_engine_choice(app, o->choice);
   app.add_option("--seed", o->how.seed, "same seed, same configurations and answers")->capture_default_str();
-  app.add_option("--jobs", o->how.jobs, "number of parallel jobs")
+  app.add_option("--jobs", o->how.jobs, "number of parallel jobs (default: one for each processor)")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   app.add_option("-o,--out", o->out, "file for the whole result (JSON)");

@@ -167,7 +167,7 @@ constexpr Row verbs[] = {
     {"step", "the first query of the script that shows it", step},
     {"stage", "the first stage of the engine that is wrong", stage},
     {"value", "the value of one number at which it begins", value},
-    {"commit", "exit code for `git bisect run`", nullptr},
+    {"commit", "the commit of the engine's library that introduced it", nullptr},
 };
 
 int run(const BisectOptions& o, Verb verb) {

@@ -168,7 +168,8 @@ Run declare_causes(CLI::App& app) {
   app.add_option("-o,--out", o->out,
                  "also write the causes as JSON to this file (DIR/causes.json always has them)");
   app.add_option("--page", o->page, "write a page (self-contained HTML) to this file");
-  app.add_option("--jobs", o->search.jobs, "number of findings examined in parallel")
+  app.add_option("--jobs", o->search.jobs,
+                 "number of findings examined in parallel (default: one for each processor)")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   add_error(app, o->search.error);

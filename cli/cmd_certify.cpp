@@ -311,7 +311,7 @@ Run declare_certify(CLI::App& app) {
                  "time for all suites together, shared equally; each runs as many of its cases, in order, as "
                  "its share allows, and --check runs the same ones")
       ->check(a_positive_number());
-  app.add_option("--jobs", o->jobs, "number of parallel jobs")
+  app.add_option("--jobs", o->jobs, "number of parallel jobs (default: one for each processor)")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   app.add_option(

@@ -162,7 +162,7 @@ Run declare_fingerprint(CLI::App& app) {
          "without a sandbox")
       ->delimiter(' ')
       ->allow_extra_args(false);
-  app.add_option("--jobs", o->jobs, "number of parallel jobs")
+  app.add_option("--jobs", o->jobs, "number of parallel jobs (default: one for each processor)")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   add_case_seconds(app, o->limits);

@@ -134,7 +134,7 @@ Run declare_fuzz(CLI::App& app) {
   app.add_option("--cases", o->cases, "stop after this many cases")->check(a_count());
   app.add_option("--minutes", o->minutes, "stop after this time (default 1 when --cases is not given)")
       ->check(a_positive_number());
-  app.add_option("--jobs", o->config.jobs, "number of parallel jobs")
+  app.add_option("--jobs", o->config.jobs, "number of parallel jobs (default: one for each processor)")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   app.add_option("--shard", o->shard,

@@ -105,7 +105,7 @@ Run declare_judge(CLI::App& app) {
   app.add_option("directory", o->directory, "directory of a campaign that was run with --keep-answers")
       ->required();
   app.add_option("--engine", o->engine, "judge this engine alone; it is then the subject");
-  app.add_option("--jobs", o->jobs, "number of parallel jobs")
+  app.add_option("--jobs", o->jobs, "number of parallel jobs (default: one for each processor)")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   app.add_option("-o,--out", o->out,

@@ -176,11 +176,12 @@ Run declare_versions(CLI::App& app) {
                  "causes.json of a campaign (default: a short campaign of these releases finds causes)");
   app.add_option("--cases", o->cases, "cases of the short campaign")->check(a_count())->capture_default_str();
   app.add_option("--seed", o->seed, "seed of the short campaign")->capture_default_str();
-  app.add_option("--jobs", o->jobs, "number of parallel jobs")
+  app.add_option("--jobs", o->jobs, "number of parallel jobs (default: one for each processor)")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   add_case_seconds(app, o->limits);
-  app.add_flag("--json", o->json, "JSON")->excludes(app.add_flag("--markdown", o->markdown, "Markdown"));
+  app.add_flag("--json", o->json, "one JSON document on stdout")
+      ->excludes(app.add_flag("--markdown", o->markdown, "the table as Markdown on stdout"));
   app.add_option("-o,--out", o->out, "write to this file instead of stdout");
   return [o] { return run(*o); };
 }

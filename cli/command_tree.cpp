@@ -18,6 +18,7 @@ std::string value_of(const CLI::Option& o, bool shows_default) {
   const std::string type = checked.empty() ? "VALUE" : checked.substr(0, checked.find(':'));
   const std::string& by_default = o.get_default_str();
   if (!shows_default || by_default.empty()) return type;
+  if (by_default.front() == '[') return type + " " + by_default;  // a list
   return type + " [" + replaced(by_default, TOUCHSTONE_SOURCE "/", "") + "]";
 }
 

@@ -32,7 +32,6 @@ using pipe::NotFinite;
 
 constexpr int protocol_version = 1;
 constexpr std::size_t longest_line = std::size_t{1} << 28;
-constexpr std::size_t quoted_bytes = 80;  // of the command's output in a message
 
 // Set once by load_pipe(); a process serves a single command.
 std::string command_line, card_text;

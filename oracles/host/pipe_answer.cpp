@@ -16,8 +16,7 @@ using pipe::Json;
 
 namespace {
 
-constexpr double longest_ns = 1e15;       // of a time that a command states
-constexpr std::size_t quoted_bytes = 80;  // of the command's output in a message
+constexpr double longest_ns = 1e15;  // of a time that a command states
 
 void read3(const Json& j, double out[3]) {
   for (std::size_t k = 0; k < 3; ++k) out[k] = j.at(k).get<double>();

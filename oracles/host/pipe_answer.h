@@ -1,6 +1,7 @@
 // An answer of a command behind a pipe, as a line of JSON (oracles/abi/pipe_protocol.md).
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <nlohmann/json.hpp>
@@ -9,6 +10,8 @@
 #include "oracles/abi/touchstone_engine.h"
 
 namespace touchstone::host {
+
+inline constexpr std::size_t quoted_bytes = 80;  // of a command's output in a message
 
 /// Throws std::runtime_error if the line is not an object.
 nlohmann::ordered_json parsed(const std::string& line);
