@@ -1,7 +1,7 @@
 // Checks the referee: slow and obvious second implementations, on many cases. Part of it runs with every
 // test, all of it at night:
 //
-//   TOUCHSTONE_NIGHTLY_CASES=1000000 build/bin/test_referee_nightly "[.nightly]"
+//   TOUCHSTONE_NIGHTLY_CASES=1000000 build/release/bin/test_referee_queries "[.nightly]"
 //
 // The number (default 1000000) applies to lattice, degenerate and closed-form cases each; smooth shapes are a
 // twentieth of it, motions a thousandth. Cases depend only on the seed.
