@@ -7,6 +7,7 @@
 #include "core/base/input_error.h"
 #include "fuzz/campaign/store.h"
 #include "reports/record/stored.h"
+#include "reports/text/causes_text.h"
 #include "reports/text/web_page.h"
 #include "scenarios/codec/json_file.h"
 
@@ -23,8 +24,10 @@ fuzz::Json settings_in(const std::filesystem::path& file) {
   return JsonReader(j, file.string())["settings"].json();
 }
 
-// The data that reports/web/src/report draws: the summary without histograms, and findings as columns.
-fuzz::Json report_page(const std::filesystem::path& directory, fuzz::Json summary) {
+// The data that reports/web/src/report draws: the causes, the summary without histograms, and findings as
+// columns.
+fuzz::Json report_page(const std::filesystem::path& directory, fuzz::Json summary,
+                       const fuzz::Causes& causes) {
   fuzz::Json findings = reports::findings_columns(summary.at("findings"));
   summary.erase("findings");
   for (auto& [engine, questions] : summary.at("engines").items())
@@ -32,10 +35,11 @@ fuzz::Json report_page(const std::filesystem::path& directory, fuzz::Json summar
   fuzz::Json settings;
   if (std::filesystem::exists(directory / "state.json")) settings = settings_in(directory / "state.json");
   return {{"page", "report"},
-          {"version", 2},
+          {"version", 3},
           {"title", "campaign " + directory.string()},
           {"directory", directory.string()},
           {"settings", std::move(settings)},
+          {"causes", reports::cause_rows(causes, directory.string())},
           {"summary", std::move(summary)},
           {"findings", std::move(findings)}};
 }
@@ -57,7 +61,7 @@ int run(const ReportOptions& o) {
   const fuzz::Causes causes = known_causes(directory.string(), result);
   fmt::print("{}", results_text(result, {.verbose = o.verbose, .causes = &causes}));
   if (o.out.empty()) return exit_clean;
-  if (!write_page("report", json_text(report_page(directory, summary)), o.out)) return exit_failed;
+  if (!write_page("report", json_text(report_page(directory, summary, causes)), o.out)) return exit_failed;
   fmt::print("{}: open it in a browser\n", o.out);
   return exit_clean;
 }

@@ -144,7 +144,7 @@ std::string describe_reason(const std::string& reason, const Responses& r,
   const std::size_t gone = count(r, Response::gone), stays = count(r, Response::stays);
   if (reason == fragile_reason)
     return fmt::format("a borderline case: vanishes under {} of {} changes", gone, gone + stays);
-  if (reason == steady_reason) return fmt::format("whatever is changed: stays under all {} changes", stays);
+  if (reason == steady_reason) return fmt::format("stays under all {} changes", stays);
   return meaning_of(reason, others).if_gone;
 }
 

@@ -26,6 +26,7 @@ constexpr std::string_view program = R"(// @TITLE@
 // B: @SHAPE_B@
 @INCLUDES@
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <utility>

@@ -17,11 +17,30 @@ void drop_cases_not_drawn(const Cause& c, Json& j) {
   j["key_count"] = c.keys.size();
 }
 
+std::string command_for(const std::string& directory) {
+  return "./touchstone causes " + shell_word(one_line(directory));
+}
+
 }  // namespace
+
+Json cause_rows(const fuzz::Causes& c, const std::string& directory) {
+  const std::string command = command_for(directory);
+  Json list = Json::array();
+  for (const Cause& cause : c.causes)
+    list.push_back({{"id", cause.id},
+                    {"path", one_line(cause.path)},
+                    {"severity", to_string(cause.severity)},
+                    {"documented", one_line(cause.documented)},
+                    {"wrong", cause.wrong},
+                    {"title", one_line(cause.title)},
+                    {"command", command_of(cause, command)}});
+  return {{"command", command + " --page " + shell_word(one_line(directory) + "/causes.html")},
+          {"list", std::move(list)}};
+}
 
 Json causes_page(const fuzz::Causes& c) {
   Json record = fuzz::to_json(c);
-  const std::string command = "./touchstone causes " + shell_word(one_line(c.campaign));
+  const std::string command = command_for(c.campaign);
   for (std::size_t i = 0; i < c.causes.size(); ++i) {
     const Cause& cause = c.causes[i];
     Json& j = record.at("causes").at(i);

@@ -34,6 +34,10 @@ using LibraryOf = std::function<std::string(const std::string& path)>;
 /// with its code and the number of wrong answers, and how many there are besides.
 std::string causes_of_libraries(const fuzz::Causes& c, std::size_t most, const LibraryOf& library_of);
 
+/// Rows of a table on the page of the campaign in `directory`: {"command": shows all causes, "list": [...]},
+/// each with the command that shows it.
+fuzz::Json cause_rows(const fuzz::Causes& c, const std::string& directory);
+
 /// The data of the page `causes`.
 fuzz::Json causes_page(const fuzz::Causes& c);
 

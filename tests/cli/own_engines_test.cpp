@@ -64,7 +64,8 @@ void check_spheres(const Place& w, const std::string& engine, const std::string&
     const Run r = w.touchstone("replay --json " + std::string(file) + " --engines " + engine);
     INFO(engine << " " << file << "\n" << r.out << r.err);
     CHECK(r.code == 0);
-    for (const json& query : parsed<json>(r.out).at(0).at("queries"))
+    const json replayed = parsed<json>(r.out);
+    for (const json& query : replayed.at(0).at("queries"))
       CHECK(query.at("engines").at(engine).at("answer").value("outcome", "answered") == "answered");
   }
 }

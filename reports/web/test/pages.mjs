@@ -189,6 +189,10 @@ for (const [name, question, drawn, words] of [
 {
   const { page } = await open("report.html");
   const d = await data(page);
+  check("the report begins with its causes", d.causes.list.length > 0 && (await page.$$eval("main > *", (all) => all[0].id)) === "causes" &&
+    (await page.$$(".cause-table tbody tr")).length === d.causes.list.length);
+  await page.click(".cause-table tbody tr button");
+  check("a cause has its command", (await page.textContent("#cause-command")).includes(`--cause ${d.causes.list[0].id}`));
   check("the report has a row an answered question", (await page.$$("#engines tbody tr")).length > 0);
   const f = d.findings;
   check("the report counts its findings", (await page.textContent("#found")).includes(`of ${f.count.toLocaleString("en-US")} kinds`) && f.count === f.answers.length && f.count > 0);

@@ -1,17 +1,14 @@
 // One cause: what is wrong, how often, what makes it vanish, and what to hand to the maintainers.
 import { shapeLine } from "../case/shape_line";
 import type { SceneJson } from "../case/types";
+import { severityBadge } from "../common/cause_table";
 import { commandLine, el, grouped, numberOf, short } from "../common/page";
 import { Drawing, canDraw } from "./drawing";
 import type { Cause, CauseCase, Response } from "./types";
 
 export const spaced = (s: string): string => s.replaceAll("_", " ");
-const grave = ["crash", "hang", "missed", "ghost", "infeasible"];
 
 const counted = (n: number, one: string, many: string): string => `${grouped(n)} ${n === 1 ? one : many}`;
-
-export const severityBadge = (c: Cause): HTMLElement =>
-  el("b", { class: `badge ${c.documented ? "soft" : grave.includes(c.severity) ? "bad" : "warn"}` }, c.documented ? `documented: ${c.severity}` : c.severity);
 
 export const shownCase = (c: Cause): CauseCase => (c.defensible.case ? c.defensible : c.smallest);
 

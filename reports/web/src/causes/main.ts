@@ -1,6 +1,7 @@
 // The page of a campaign's causes, in the order in which to read them.
+import { causeTable } from "../common/cause_table";
 import { LinkState, app, el, grouped, isTyping, pageData, themeButton } from "../common/page";
-import { Block, severityBadge } from "./block";
+import { Block } from "./block";
 import type { CausesPage } from "./types";
 import "./causes.css";
 
@@ -28,15 +29,14 @@ function select(key: string, label: string, values: string[], ordered = false): 
 }
 
 const found = el("span", { id: "found", class: "soft", role: "status" });
-const index = el("tbody", {}, ...blocks.map((b) => {
-  const open = el("a", { href: `#cause=${encodeURIComponent(b.cause.id)}` }, b.cause.title);
+const index = causeTable(causes, (c) => {
+  const open = el("a", { href: `#cause=${encodeURIComponent(c.id)}` }, c.title);
   open.addEventListener("click", (e) => {
     e.preventDefault();
-    goTo(b);
+    goTo(blocks[causes.indexOf(c)]!);
   });
-  return el("tr", { "data-index": b.cause.id }, el("td", { class: "n" }, String(b.number)), el("td", { class: "severity" }, severityBadge(b.cause)), el("td", { class: "path" }, b.cause.path),
-    el("td", { class: "n" }, grouped(b.cause.wrong)), el("td", { class: "title" }, open));
-}));
+  return open;
+});
 
 app().append(
   el("header", {}, el("div", { class: "grow" }, el("h1", {}, data.title),
@@ -45,7 +45,7 @@ app().append(
     el("div", { class: "controls screen-only" }, themeButton(link, () => blocks.forEach((b) => b.redraw())))),
   el("main", {},
     el("div", { class: "controls screen-only", id: "filters" }, filters.path, filters.severity, found),
-    el("div", { id: "index-box", tabindex: "0", "aria-label": "all causes" }, el("table", { id: "index" }, el("thead", {}, el("tr", {}, el("th", { class: "n" }, "#"), el("th", { class: "severity" }, "severity"), el("th", { class: "path" }, "engine path"), el("th", { class: "n" }, "wrong"), el("th", {}, "cause"))), index)),
+    index,
     ...blocks.map((b) => b.element),
     el("p", { class: "soft screen-only" }, "Keys: n and p next and previous cause, l light or dark; in a picture, arrows rotate, + and − zoom.")),
 );
@@ -62,7 +62,7 @@ function filter(): void {
   for (const b of blocks) {
     const shown = (!filters.path.value || b.cause.path === filters.path.value) && (!filters.severity.value || b.cause.severity === filters.severity.value);
     b.element.hidden = !shown;
-    index.querySelectorAll<HTMLElement>("tr")[b.number - 1]!.hidden = !shown;
+    index.querySelectorAll<HTMLElement>("tbody tr")[b.number - 1]!.hidden = !shown;
   }
   const n = visible().length;
   found.textContent = n === blocks.length ? `${grouped(n)} causes` : `${grouped(n)} of ${grouped(blocks.length)} causes`;

@@ -1,9 +1,10 @@
-// A campaign: results by engine, and findings by key.
+// A campaign: its causes, results by engine, and findings by key.
 import { BarChart } from "echarts/charts";
 import { GridComponent, LegendComponent, TooltipComponent } from "echarts/components";
 import { init, use } from "echarts/core";
 import { SVGRenderer } from "echarts/renderers";
-import { LinkState, app, colourOf, el, grouped, nanoseconds, numberOf, pageData, themeButton } from "../common/page";
+import { causeTable, type CauseRow } from "../common/cause_table";
+import { LinkState, app, colourOf, commandLine, el, grouped, nanoseconds, numberOf, pageData, themeButton } from "../common/page";
 import { FindingsBrowser } from "./browser";
 import { Findings, type FindingsJson } from "./findings";
 import "./report.css";
@@ -24,6 +25,7 @@ interface ReportPage {
     families?: Record<string, number>;
   };
   findings: FindingsJson;
+  causes: { command: string; list: (CauseRow & { command: string })[] };
 }
 
 const data = pageData<ReportPage>();
@@ -40,13 +42,27 @@ const style = (name: string): string => getComputedStyle(document.documentElemen
 const engines = Object.keys(data.summary.engines);
 const chart = el("div", { class: "chart", id: "chart", style: `height:${Math.max(180, 80 + 24 * engines.length)}px` });
 const browser = new FindingsBrowser(findings, link, data.directory);
+const causes = data.causes.list;
 const engineTable = el("div", { class: "scroll", id: "engines" });
 
 app().append(
   el("header", {}, el("div", { class: "grow" }, el("h1", {}, data.title), subjectLine(), el("p", { class: "soft" }, summaryLine())), el("div", { class: "controls screen-only" }, themeButton(link, draw))),
-  el("main", {}, el("h2", { id: "wrong" }, "Wrong and failed answers by engine"), chart, el("h2", { id: "by-key" }, "Findings by key"), browser.element,
+  el("main", {}, ...causesFirst(), el("h2", { id: "wrong" }, "Wrong and failed answers by engine"), chart, el("h2", { id: "by-key" }, "Findings by key"), browser.element,
     el("h2", { id: "answers" }, "All answers"), engineTable, familiesLine()),
 );
+
+// The causes before all else: what to read, and the command that shows it.
+function causesFirst(): HTMLElement[] {
+  if (!causes.length) return [];
+  const command = el("div", { id: "cause-command" }, commandLine(data.causes.command));
+  const table = causeTable(causes, (c) => {
+    const open = el("button", { type: "button" }, c.title);
+    open.addEventListener("click", () => command.replaceChildren(commandLine(c.command)));
+    return open;
+  });
+  return [el("h2", { id: "causes" }, `${grouped(causes.length)} ${causes.length === 1 ? "cause" : "causes"} of wrong answers`), table,
+    el("p", { class: "soft screen-only" }, "Click a cause for the command that shows it in full; this one shows all of them on a page:"), command];
+}
 
 function summaryLine(): string {
   const s = data.summary;
