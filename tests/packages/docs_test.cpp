@@ -30,7 +30,7 @@ class Page(html.parser.HTMLParser):
                 self.names.add(value)
 
 root = pathlib.Path(sys.argv[1]).resolve()
-pages = {p: Page(p) for p in root.rglob('*.html') if p.name != '404.html'}
+pages = {p: Page(p) for p in root.rglob('*.html') if p.name != '404.html' and root / 'api' not in p.parents}
 checked = 0
 for path, page in pages.items():
     for link in page.links:
@@ -67,6 +67,13 @@ TEST_CASE("the documents as HTML are complete and all their links lead somewhere
   const Run links = w.run("python3 check.py html");
   INFO(links.err);
   CHECK(links.out == std::to_string(documents) + " pages, enough links\n");
+
+  if (has_command("doxygen")) {
+    const std::string functions = touchstone::test::read_all(w.dir / "html/api/touchstone_8h.html");
+    for (const char* words : {"touchstone_gap", "The convex hull of n points, 3 doubles each."})
+      CHECK(functions.find(words) != std::string::npos);
+    CHECK(touchstone::test::read_all(w.dir / "html/index.html").find("api/index.html") != std::string::npos);
+  }
 
   CHECK(w.run(launcher("-o html")).code == 0);  // its own directory is written again
 }
