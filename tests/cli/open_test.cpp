@@ -5,8 +5,8 @@
 
 #include "reports/text/web_page.h"
 #include "tests/support/catch.h"
-#include "tests/support/skip.h"
 #include "tests/support/parsed.h"
+#include "tests/support/skip.h"
 #include "tests/support/workspace.h"
 
 using touchstone::test::read_all;
@@ -101,7 +101,8 @@ TEST_CASE("open lists what a directory holds, with its verdict", "[cli][open]") 
       }
 }
 
-TEST_CASE("a record and its page are one result, and the index does not list itself", "[cli][open][optional]") {
+TEST_CASE("a record and its page are one result, and the index does not list itself",
+          "[cli][open][optional]") {
   if (!has_pages()) return touchstone::test::skip("the pages are not built");
   const Workspace w("open-pages");
   REQUIRE(w.touchstone("certify --subject grid --limit 40 -o grid.json --page pages.html").code == 0);
