@@ -23,11 +23,18 @@ namespace {
 
 bool is_solid(const Shape& s) { return kind_of(s) == ShapeKind::solid_mesh; }
 
+// The mean of the vertices: unlike each of them, it does not lie on a surface that the hull touches.
+Vec3 middle_of(const Hull& h) {
+  Vec3 sum = Vec3::Zero();
+  for (const Vec3& v : h.vertices) sum += v;
+  return sum / static_cast<double>(h.vertices.size());
+}
+
 // A point of a convex body, or of each connected part of a mesh, in its frame.
 std::vector<Vec3> points_of(const SeenShape& x) {
   if (x.inside()) return x.inside()->representatives;
   if (const auto* mesh = std::get_if<TriangleMesh>(x.seen().shape)) return part_representatives(*mesh);
-  if (const auto* hull = std::get_if<Hull>(x.seen().shape)) return {hull->vertices.front()};
+  if (const auto* hull = std::get_if<Hull>(x.seen().shape)) return {middle_of(*hull)};
   return {Vec3::Zero()};
 }
 
