@@ -176,6 +176,21 @@ TEST_CASE("bodies inside, in the notch and in a cavity of a solid", "[solid]") {
   CHECK(cavity.truth().verdict == referee::Verdict::disjoint);
 }
 
+TEST_CASE("a hull whose first vertex touches a face from inside overlaps the solid, however both are turned",
+          "[solid]") {
+  const Hull h = make_hull({{3, 0.5, 0}, {2.5, 0.25, 0}, {2.5, 0.75, 0.25}, {2.5, 0.5, -0.25}});
+  const Shape l = SolidMesh(l_shape()), hull = h;
+  Rng rng(7);
+  for (int i = 0; i < 500; ++i) {
+    Pose turned;
+    turned.rotation = {rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1)};
+    Pose other = turned;  // nearly: the vertex is some roundings inside or outside
+    other.translation = {rng.uniform(-1, 1) * 0x1p-52, 0, 0};
+    CHECK(overlap({&l, turned}, {&hull, other}).overlap);
+    CHECK(distance({&hull, other}, {&l, turned}).distance < 0);
+  }
+}
+
 TEST_CASE("a convex solid answers as the hull of its vertices", "[solid]") {
   const Pair p{SolidMesh(box({1, 2, 3})),
                Box{Vec3(0.5, 0.5, 0.5)},
