@@ -129,7 +129,6 @@ int run(AssessArguments o) {
 
 Run declare_assess(CLI::App& app) {
   auto o = std::make_shared<AssessArguments>();
-  o->how.jobs = processor_count();
   app.add_option("robot", o->robot, "robot: " + importable_endings())->required();
   app.add_option("--world", o->world, "what stands around it, fixed: a file of the same kinds");
   add_import_options(app, o->import);
@@ -148,9 +147,7 @@ Run declare_assess(CLI::App& app) {
       ->capture_default_str();
   add_engine_choice(app, o->choice);
   app.add_option("--seed", o->how.seed, "same seed, same configurations and answers")->capture_default_str();
-  app.add_option("--jobs", o->how.jobs, "number of parallel jobs (default: one for each processor)")
-      ->check(CLI::Range(1, 1024))
-      ->capture_default_str();
+  add_jobs(app, o->how.jobs);
   app.add_option("-o,--out", o->out, "file for the whole result (JSON)");
   app.add_option(
       "--page", o->page,

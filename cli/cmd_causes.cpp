@@ -150,7 +150,6 @@ int run(CausesOptions& o) {
 
 Run declare_causes(CLI::App& app) {
   auto o = std::make_shared<CausesOptions>();
-  o->search.jobs = processor_count();
   app.add_option("directory", o->search.directory, "directory of a campaign (`fuzz --out`)")->required();
   app.add_option("--engine", o->engine,
                  "only causes of this engine, or of this path (fcl-libccd, bullet-query)");
@@ -168,10 +167,7 @@ Run declare_causes(CLI::App& app) {
   app.add_option("-o,--out", o->out,
                  "also write the causes as JSON to this file (DIR/causes.json always has them)");
   app.add_option("--page", o->page, "write a page (self-contained HTML) to this file");
-  app.add_option("--jobs", o->search.jobs,
-                 "number of findings examined in parallel (default: one for each processor)")
-      ->check(CLI::Range(1, 1024))
-      ->capture_default_str();
+  add_jobs(app, o->search.jobs, "number of findings examined in parallel");
   add_error(app, o->search.error);
   add_case_seconds(app, o->search.limits);
   app.add_flag("--json", o->json, "one JSON document on stdout");

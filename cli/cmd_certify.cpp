@@ -287,7 +287,6 @@ int check(const CertifyOptions& o) {
 
 Run declare_certify(CLI::App& app) {
   auto o = std::make_shared<CertifyOptions>();
-  o->jobs = processor_count();
   app.add_option("--subject", o->subject,
                  "a core broad phase, an engine (`touchstone engines`), ./libmine.so, or pipe:COMMAND");
   app.add_option("--scope", o->scope, "quick (a minute) or full (half an hour)")
@@ -311,9 +310,7 @@ Run declare_certify(CLI::App& app) {
                  "time for all suites together, shared equally; each runs as many of its cases, in order, as "
                  "its share allows, and --check runs the same ones")
       ->check(a_positive_number());
-  app.add_option("--jobs", o->jobs, "number of parallel jobs (default: one for each processor)")
-      ->check(CLI::Range(1, 1024))
-      ->capture_default_str();
+  add_jobs(app, o->jobs);
   app.add_option(
       "--margin", o->margin,
       "every pair whose distance is at most this must be a candidate (candidates_within), in the unit of "

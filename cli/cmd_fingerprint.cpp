@@ -142,7 +142,6 @@ int run(FingerprintOptions& o) {
 
 Run declare_fingerprint(CLI::App& app) {
   auto o = std::make_shared<FingerprintOptions>();
-  o->jobs = processor_count();
   app.add_option("engine", o->engine, "a name, ./libmine.so or pipe:COMMAND");
   app.add_option(
          "--compare", o->compared,
@@ -162,9 +161,7 @@ Run declare_fingerprint(CLI::App& app) {
          "without a sandbox")
       ->delimiter(' ')
       ->allow_extra_args(false);
-  app.add_option("--jobs", o->jobs, "number of parallel jobs (default: one for each processor)")
-      ->check(CLI::Range(1, 1024))
-      ->capture_default_str();
+  add_jobs(app, o->jobs);
   add_case_seconds(app, o->limits);
   app.add_flag("--json", o->json, "one JSON document on stdout");
   app.add_option("-o,--out", o->out,

@@ -126,7 +126,6 @@ int run(FuzzOptions& o) {
 
 Run declare_fuzz(CLI::App& app) {
   auto o = std::make_shared<FuzzOptions>();
-  o->config.jobs = processor_count();
   add_engine_choice(app, o->choice);
   app.add_option("--family", o->config.family,
                  "only these families of cases: a,b,… (see `touchstone families`)");
@@ -134,9 +133,7 @@ Run declare_fuzz(CLI::App& app) {
   app.add_option("--cases", o->cases, "stop after this many cases")->check(a_count());
   app.add_option("--minutes", o->minutes, "stop after this time (default 1 when --cases is not given)")
       ->check(a_positive_number());
-  app.add_option("--jobs", o->config.jobs, "number of parallel jobs (default: one for each processor)")
-      ->check(CLI::Range(1, 1024))
-      ->capture_default_str();
+  add_jobs(app, o->config.jobs);
   app.add_option("--shard", o->shard,
                  "i/n: run only shard i of n, counted from 0 (default: SLURM_ARRAY_TASK_ID of "
                  "SLURM_ARRAY_TASK_COUNT, or JOB_COMPLETION_INDEX of JOB_COMPLETIONS, if set)");

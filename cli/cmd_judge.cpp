@@ -101,13 +101,10 @@ int run(const JudgeOptions& o) {
 
 Run declare_judge(CLI::App& app) {
   auto o = std::make_shared<JudgeOptions>();
-  o->jobs = processor_count();
   app.add_option("directory", o->directory, "directory of a campaign that was run with --keep-answers")
       ->required();
   app.add_option("--engine", o->engine, "judge this engine alone; it is then the subject");
-  app.add_option("--jobs", o->jobs, "number of parallel jobs (default: one for each processor)")
-      ->check(CLI::Range(1, 1024))
-      ->capture_default_str();
+  add_jobs(app, o->jobs);
   app.add_option("-o,--out", o->out,
                  "new directory for the findings as judged now, which `report` and `triage` accept");
   app.add_option("--junit", o->junit, "write the findings as JUnit XML to this file; new ones are failures");

@@ -253,8 +253,7 @@ Run declare_triage(CLI::App& app) {
                  "directory for one subdirectory per cause of this campaign: case, certificate, and a C++ "
                  "program that shows it");
   app.add_option("--date", o->date, "date of the run, for the ledger (default: now)");
-  app.add_option("--jobs", o->jobs,
-                 "number of causes asked again in parallel (default: one for each processor)")
+  app.add_option("--jobs", o->jobs, "number of causes asked again in parallel (default: 1)")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   add_error(app, o->error);

@@ -164,7 +164,6 @@ int run(VersionsOptions& o) {
 
 Run declare_versions(CLI::App& app) {
   auto o = std::make_shared<VersionsOptions>();
-  o->jobs = processor_count();
   app.add_option("engines", o->engines, "engines from npm, separated by commas: jolt,rapier")->required();
   app.add_option("--releases", o->releases,
                  "number of releases, spread from the oldest to the newest: the newest patch of each minor "
@@ -176,9 +175,7 @@ Run declare_versions(CLI::App& app) {
                  "causes.json of a campaign (default: a short campaign of these releases finds causes)");
   app.add_option("--cases", o->cases, "cases of the short campaign")->check(a_count())->capture_default_str();
   app.add_option("--seed", o->seed, "seed of the short campaign")->capture_default_str();
-  app.add_option("--jobs", o->jobs, "number of parallel jobs (default: one for each processor)")
-      ->check(CLI::Range(1, 1024))
-      ->capture_default_str();
+  add_jobs(app, o->jobs);
   add_case_seconds(app, o->limits);
   app.add_flag("--json", o->json, "one JSON document on stdout")
       ->excludes(app.add_flag("--markdown", o->markdown, "the table as Markdown on stdout"));

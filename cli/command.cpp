@@ -23,6 +23,13 @@ const std::string& program_name() { return stored_program_name(); }
 
 int processor_count() { return static_cast<int>(std::max(1U, std::thread::hardware_concurrency())); }
 
+void add_jobs(CLI::App& app, int& jobs, const std::string& what) {
+  jobs = processor_count();
+  app.add_option("--jobs", jobs, what + " (default: one for each processor)")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+}
+
 namespace {
 
 template <class Number>

@@ -30,6 +30,9 @@ const std::string& program_name();
 /// How many jobs run side by side unless --jobs says otherwise; at least 1.
 int processor_count();
 
+/// --jobs, described as `what`. Sets `jobs` to its default, the number of processors.
+void add_jobs(CLI::App& app, int& jobs, const std::string& what = "number of parallel jobs");
+
 /// Option validators with readable messages (CLI11's own print the largest double in full).
 CLI::Validator a_count();
 CLI::Validator a_positive_number();

@@ -32,9 +32,7 @@ for line in sys.stdin:
 
 TEST_CASE("certify --memcheck refutes a broad phase that loses no pair but reads freed memory",
           "[certify][cli][optional]") {
-#ifdef TS_ADDRESS_SANITIZER
-  return skip("Valgrind cannot run what AddressSanitizer is in");
-#endif
+  if (touchstone::test::is_sanitized) return skip("Valgrind cannot run what AddressSanitizer is in");
   const Workspace w("memcheck");
   const std::string command =
       "certify --subject " TS_BINARY_DIR "/lib/libts_reads_freed.so --level boxes --jobs 1 --limit 8";

@@ -220,9 +220,7 @@ TEST_CASE("cases are made of the kinds that the subject's card lists; what nobod
 }
 
 TEST_CASE("a finding about a plug-in is shown by a program that loads it", "[reproduce][optional]") {
-#ifdef TS_ADDRESS_SANITIZER
-  return skip("the plug-in is built with sanitizers, whose runtime the program lacks");
-#endif
+  if (touchstone::test::is_sanitized) return skip("the plug-in needs the sanitizers' runtime");
   const Workspace w("plugin-program");
   int shown = 0;
   for (const char* name : {"depth_halved", "distance_absolute", "normal_flipped"}) {

@@ -178,8 +178,8 @@ TEST_CASE("bodies inside, in the notch and in a cavity of a solid", "[solid]") {
 
 TEST_CASE("a hull whose first vertex touches a face from inside overlaps the solid, however both are turned",
           "[solid]") {
-  const Hull h = make_hull({{3, 0.5, 0}, {2.5, 0.25, 0}, {2.5, 0.75, 0.25}, {2.5, 0.5, -0.25}});
-  const Shape l = SolidMesh(l_shape()), hull = h;
+  const Shape l = SolidMesh(l_shape()),
+              hull = make_hull({{3, 0.5, 0}, {2.5, 0.25, 0}, {2.5, 0.75, 0.25}, {2.5, 0.5, -0.25}});
   Rng rng(7);
   for (int i = 0; i < 500; ++i) {
     Pose turned;

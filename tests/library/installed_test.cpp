@@ -32,13 +32,7 @@ Run built(const Workspace& w, const std::string& lists) {
                " " TS_SAME_COMPILER " 2>&1 && cmake --build build 2>&1");
 }
 
-// What is linked by other means than CMake lacks the sanitizers' runtime.
-constexpr const char* sanitized =
-#ifdef TS_ADDRESS_SANITIZER
-    "the library is built with sanitizers";
-#else
-    nullptr;
-#endif
+constexpr const char* sanitized = "the library needs the sanitizers' runtime";
 
 const std::string start = "cmake_minimum_required(VERSION 3.16)\n";
 const std::string source = TS_SOURCE_DIR "/tests/library/";
@@ -62,7 +56,7 @@ TEST_CASE("a C program is built against the installed library by CMake, which ne
 TEST_CASE("pkg-config finds the installed library, whose soname has the major version",
           "[library][optional]") {
   if (!has_command("pkg-config")) return skip("pkg-config is not installed");
-  if (sanitized) return skip(sanitized);
+  if (touchstone::test::is_sanitized) return skip(sanitized);
   install();
   const Workspace w("library-pkg-config");
   const Run b = w.run("export PKG_CONFIG_PATH=" + prefix +
@@ -104,7 +98,7 @@ TEST_CASE("the matchers of Catch2 and GoogleTest accept sound answers and say wh
 }
 
 TEST_CASE("the matcher of GoogleTest", "[library][optional]") {
-  if (sanitized) return skip(sanitized);
+  if (touchstone::test::is_sanitized) return skip(sanitized);
   const Workspace w("library-gtest");
   w.write("probe.cpp", "#include <gtest/gtest.h>\nTEST(a, b) {}\n");
   if (w.run("c++ -std=c++17 probe.cpp -lgtest -lgtest_main -pthread -o probe").code != 0)
@@ -130,7 +124,7 @@ TEST_CASE("pip installs the package from the checkout without a network, and its
           "[library][optional]") {
   if (!touchstone::test::has_python_with("numpy, pip"))
     return skip("python3-numpy or python3-pip is not installed");
-  if (sanitized) return skip(sanitized);
+  if (touchstone::test::is_sanitized) return skip(sanitized);
   const Workspace w("library-pip");
   const Run pip =
       w.run("TOUCHSTONE_BUILD=" TS_BINARY_DIR

@@ -20,6 +20,13 @@ inline void skip(const std::string& reason) {
   SUCCEED(reason);
 }
 
+/// Programs that this build does not link lack the runtime that its libraries then need.
+#ifdef TS_ADDRESS_SANITIZER
+inline constexpr bool is_sanitized = true;
+#else
+inline constexpr bool is_sanitized = false;
+#endif
+
 inline bool has_command(const std::string& name) {
   return std::system(("command -v " + name + " >/dev/null 2>&1").c_str()) == 0;
 }
