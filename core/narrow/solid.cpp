@@ -9,9 +9,7 @@
 namespace touchstone {
 
 SolidParts::SolidParts(const SolidMesh& solid)
-    : is_convex(is_convex_solid(solid)),
-      hull(make_hull(solid.vertices)),
-      representatives(part_representatives(solid)) {
+    : is_convex(is_convex_solid(solid)), hull(make_hull(solid.vertices)), inner(inner_points(solid)) {
   of_hull = std::make_unique<const Collider>(hull);
   if (is_convex) return;
   surface = static_cast<const TriangleMesh&>(solid);
@@ -30,10 +28,11 @@ Vec3 middle_of(const Hull& h) {
   return sum / static_cast<double>(h.vertices.size());
 }
 
-// A point of a convex body, or of each connected part of a mesh, in its frame.
+// A point of a convex body, or of each connected part of a mesh, in its frame. No point of a solid lies on a
+// surface that the solid touches, where rounding would decide on which side it is.
 std::vector<Vec3> points_of(const SeenShape& x) {
-  if (x.inside()) return x.inside()->representatives;
-  if (const auto* mesh = std::get_if<TriangleMesh>(x.seen().shape)) return part_representatives(*mesh);
+  if (x.inside()) return x.inside()->inner;
+  if (const auto* mesh = std::get_if<TriangleMesh>(x.seen().shape)) return points_of_parts(*mesh);
   if (const auto* hull = std::get_if<Hull>(x.seen().shape)) return {middle_of(*hull)};
   return {Vec3::Zero()};
 }

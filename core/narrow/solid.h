@@ -21,7 +21,7 @@ struct SolidParts {
   bool is_convex;
   Shape hull, surface;  // `surface` unless it is convex
   std::unique_ptr<const Collider> of_hull, of_surface;
-  std::vector<Vec3> representatives;  // one vertex of each connected part of the surface
+  std::vector<Vec3> inner;  // a point inside for each connected part of the surface
 };
 
 namespace narrow {

@@ -108,12 +108,15 @@ class Search {
     std::ranges::stable_sort(found, {}, &Way::depth);
     if (found.size() > most_starts) found.resize(most_starts);
     for (Way& w : found) turn(w);
-    const Way best = *std::ranges::min_element(found, {}, &Way::depth);
-    const Vec3 way = (best.depth + clear_) * best.normal;
-    const DistanceAnswer d = distance(a_.seen(), moved(b_.seen(), way));
-    if (d.outcome != Outcome::answered) return std::nullopt;
-    const double at_least = std::min(depth_of_parts(meetings), best.depth);
-    return WayOut{best.normal, best.depth, at_least, {d.witness[0], d.witness[1] - way}};
+    std::ranges::stable_sort(found, {}, &Way::depth);
+    for (const Way& w : found) {
+      const DistanceAnswer d = distance_after(w.depth, w.normal);
+      const Vec3 by = (w.depth + clear_) * w.normal;
+      if (d.outcome != Outcome::answered || !(d.distance > 0) || is_inside(by)) continue;
+      const double at_least = std::min(depth_of_parts(meetings), w.depth);
+      return WayOut{w.normal, w.depth, at_least, {d.witness[0], d.witness[1] - by}};
+    }
+    return std::nullopt;
   }
 
  private:
@@ -334,13 +337,14 @@ class Search {
     return r;
   }
 
-  // The shortest motion past up to three of the planes that is past all; zero: none is.
+  // The shortest motion past up to three of the planes that is past all; zero: none is. None is longer than
+  // it takes to separate the bounding spheres: planes that are nearly parallel meet anywhere.
   Vec3 shortest_past(const std::vector<Plane>& planes) const {
     Vec3 best = Vec3::Zero();
     const auto consider = [&](const Vec3& t) {
       const auto is_past = [&](const Plane& p) { return p.n.dot(t) >= p.least - clear_; };
       const bool is_shorter = best.isZero(0) || t.squaredNorm() < best.squaredNorm();
-      if (t.allFinite() && is_shorter && std::ranges::all_of(planes, is_past)) best = t;
+      if (t.squaredNorm() <= size_ * size_ && is_shorter && std::ranges::all_of(planes, is_past)) best = t;
     };
     for (std::size_t i = 0; i < planes.size(); ++i) {
       const Plane& p = planes[i];

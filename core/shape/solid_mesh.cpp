@@ -1,10 +1,12 @@
 #include "core/shape/solid_mesh.h"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <numeric>
 
 #include "core/math/expansion.h"
+#include "core/math/roundoff.h"
 
 namespace touchstone {
 namespace {
@@ -108,7 +110,8 @@ class Surface {
     return true;
   }
 
-  std::vector<Vec3> representatives() const {
+  // The largest triangle of each part that is connected by vertices.
+  std::vector<std::size_t> largest_of_parts() const {
     std::vector<int> first(number_.size());
     std::iota(first.begin(), first.end(), 0);
     const auto root = [&](int v) {
@@ -117,13 +120,17 @@ class Surface {
     };
     for (const auto& t : triangles_)
       for (const int v : {t[1], t[2]}) first[at(root(v))] = root(t[0]);
-    std::vector<Vec3> r;
-    std::vector<bool> seen(number_.size(), false);
+    const auto area = [&](std::size_t i) {
+      const Corners c = corners(mesh_, i);
+      return (c[1] - c[0]).cross(c[2] - c[0]).stableNorm();
+    };
+    std::map<int, std::size_t> largest;
     for (std::size_t i = 0; i < triangles_.size(); ++i) {
-      const auto part = at(root(triangles_[i][0]));
-      if (!seen[part]) r.push_back(corners(mesh_, i)[0]);
-      seen[part] = true;
+      const auto [known, is_new] = largest.try_emplace(root(triangles_[i][0]), i);
+      if (!is_new && area(i) > area(known->second)) known->second = i;
     }
+    std::vector<std::size_t> r;
+    for (const auto& [part, i] : largest) r.push_back(i);
     return r;
   }
 
@@ -315,6 +322,26 @@ class Surface {
   std::vector<std::size_t> part_;
 };
 
+Vec3 middle(const Corners& c) { return (c[0] + c[1] + c[2]) / 3; }
+
+// How far it is along a line from triangle `start` to the next one, rounded; triangles are taken to be a
+// little larger than they are, so that a line through an edge misses neither. The line leaves a closed
+// surface somewhere.
+double to_surface(const TriangleMesh& m, std::size_t start, const Vec3& from, const Vec3& along) {
+  constexpr double larger = 1e-9;  // of the triangle's size
+  double nearest = infinity;
+  for (std::size_t i = 0; i < m.triangles.size(); ++i) {
+    const Corners c = corners(m, i);
+    const Vec3 e = c[1] - c[0], f = c[2] - c[0], across = along.cross(f), to = from - c[0];
+    const double det = e.dot(across);
+    if (i == start || det == 0) continue;
+    const double u = to.dot(across) / det, v = along.dot(to.cross(e)) / det;
+    const double t = f.dot(to.cross(e)) / det;
+    if (u >= -larger && v >= -larger && u + v <= 1 + larger && t > 0) nearest = std::min(nearest, t);
+  }
+  return nearest;
+}
+
 // The side of p beside the line from a to b, seen along z, with p moved by (e, e²) for an infinitesimal e >
 // 0.
 int perturbed_side(const Vec3& a, const Vec3& b, const Vec3& p) {
@@ -330,7 +357,30 @@ std::optional<SolidFlaw> flaw_of_solid(const TriangleMesh& surface) { return Sur
 
 bool is_convex_solid(const TriangleMesh& surface) { return Surface(surface).is_convex(); }
 
-std::vector<Vec3> part_representatives(const TriangleMesh& mesh) { return Surface(mesh).representatives(); }
+std::vector<Vec3> points_of_parts(const TriangleMesh& mesh) {
+  std::vector<Vec3> r;
+  for (const std::size_t i : Surface(mesh).largest_of_parts()) r.push_back(middle(corners(mesh, i)));
+  return r;
+}
+
+std::vector<Vec3> inner_points(const TriangleMesh& surface) {
+  std::vector<Vec3> r;
+  for (const std::size_t i : Surface(surface).largest_of_parts()) {
+    const Corners c = corners(surface, i);
+    const Vec3 from = middle(c), inward = (c[2] - c[0]).cross(c[1] - c[0]).stableNormalized();
+    double t = to_surface(surface, i, from, inward);
+    Vec3 inside = c[0];
+    for (int halvings = 0; halvings < std::numeric_limits<double>::digits; ++halvings) {
+      t /= 2;
+      const Vec3 p = from + t * inward;
+      if (winding_number(surface, p) == 0) continue;
+      inside = p;
+      break;
+    }
+    r.push_back(inside);
+  }
+  return r;
+}
 
 // Counts the triangles above the point, +1 for those that face up. The ray upward is moved aside by an
 // infinitesimal amount, the same for all triangles, so that it meets no edge and no vertical triangle.

@@ -35,7 +35,11 @@ int winding_number(const TriangleMesh& surface, const Vec3& point);
 /// Whether the solid inside a valid surface is convex: then it is the hull of its vertices. Exact.
 bool is_convex_solid(const TriangleMesh& surface);
 
-/// Of each part of any mesh that is connected by vertices, one vertex.
-std::vector<Vec3> part_representatives(const TriangleMesh& mesh);
+/// A point of each part of any mesh that is connected by vertices: the middle of its largest triangle.
+std::vector<Vec3> points_of_parts(const TriangleMesh& mesh);
+
+/// Of each connected part of a valid solid's surface, a point inside the solid near which the surface is
+/// not: behind the middle of the part's largest triangle, halfway to the next.
+std::vector<Vec3> inner_points(const TriangleMesh& surface);
 
 }  // namespace touchstone

@@ -191,6 +191,53 @@ TEST_CASE("a hull whose first vertex touches a face from inside overlaps the sol
   }
 }
 
+TEST_CASE("a solid that touches another from inside overlaps it, however both are turned", "[solid]") {
+  TriangleMesh small = l_shape();
+  for (Vec3& v : small.vertices) v = Vec3(3, 0.875, 0) + Vec3(-v.x(), -v.y(), v.z()) / 4;
+  const Shape l = SolidMesh(l_shape()), inner = SolidMesh(small);
+  Rng rng(8);
+  for (int i = 0; i < 200; ++i) {
+    Pose turned;
+    turned.rotation = {rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1)};
+    Pose other = turned;
+    other.translation = {rng.uniform(-1, 1) * 0x1p-52, 0, 0};
+    CHECK(overlap({&l, turned}, {&inner, other}).overlap);
+    CHECK(distance({&inner, other}, {&l, turned}).distance < 0);
+  }
+}
+
+TEST_CASE("each connected part of a solid's surface has a point inside the solid", "[solid]") {
+  TriangleMesh hollow = box({2, 2, 2});
+  add_box(hollow, {1, 1, 1}, Vec3::Zero(), true);
+  add_box(hollow, {0.5, 0.5, 0.5}, Vec3::Zero());
+  const std::vector<Vec3> points = inner_points(hollow);
+  REQUIRE(points.size() == 3);
+  const auto reach = [](const Vec3& p) { return p.cwiseAbs().maxCoeff(); };
+  CHECK((reach(points[0]) > 1 && reach(points[0]) < 2));
+  CHECK((reach(points[1]) > 1 && reach(points[1]) < 2));
+  CHECK(reach(points[2]) < 0.5);
+}
+
+// Planes that are parallel but for rounding meet 1e15 away: a motion to there proves nothing.
+TEST_CASE("a ball whose centre lies on the face of a solid is its radius deep", "[solid]") {
+  TriangleMesh l;
+  for (const Vec3& v : l_shape().vertices)
+    l.vertices.push_back({v.x() / 2 - 0.5, v.y() / 2 - 0.5, v.z() / 5});
+  l.triangles = l_shape().triangles;
+  const Shape solid = SolidMesh(l), ball = Sphere{0.85};
+  Rng rng(9);
+  for (int i = 0; i < 300; ++i) {
+    Pose turned, centre;
+    turned.rotation = {rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1)};
+    centre.translation = to_transform(turned) * Vec3(-0.25, -0.25, -0.2);
+    const ContactAnswer c = contact({&ball, centre}, {&solid, turned});
+    CHECK((c.outcome == Outcome::answered && std::abs(c.depth - 0.85) < 1e-14));
+    centre.translation = to_transform(turned) * Vec3(0.25, -0.25, -0.2);
+    const DistanceAnswer d = distance({&solid, turned}, {&ball, centre});
+    CHECK((d.outcome == Outcome::answered && std::abs(d.distance + 0.85) < 1e-14));
+  }
+}
+
 TEST_CASE("a convex solid answers as the hull of its vertices", "[solid]") {
   const Pair p{SolidMesh(box({1, 2, 3})),
                Box{Vec3(0.5, 0.5, 0.5)},

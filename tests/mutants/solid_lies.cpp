@@ -21,7 +21,7 @@ Shape as_hull(const Shape& s) {
 // Without the parts of its surface after the first.
 Shape without_cavity(const Shape& s) {
   const auto* solid = std::get_if<SolidMesh>(&s);
-  if (!solid || part_representatives(*solid).size() != 2) return s;
+  if (!solid || points_of_parts(*solid).size() != 2) return s;
   TriangleMesh outer{solid->vertices, solid->triangles};
   const std::size_t corners = solid->vertices.size() / 2, faces = solid->triangles.size() / 2;
   outer.vertices.resize(corners);
