@@ -50,6 +50,8 @@ Separation from_epa(extended::EpaResult<Wide> e, const Core& a, const Core& b, W
   if (e.status == extended::EpaStatus::explored) {
     extended::descend<Wide>(e, a, b, size, tolerance);
     local = e.status == extended::EpaStatus::closed;
+  } else if (e.status == extended::EpaStatus::broken) {
+    extended::part_a_little<Wide>(e, a, b, size, tolerance);
   }
   Separation s;
   s.size = size;

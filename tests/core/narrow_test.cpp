@@ -71,6 +71,25 @@ TEST_CASE("exactly touching pairs overlap", "[narrow]") {
   CHECK_FALSE(overlap({&box, {}}, {&box, at(2 + 1e-12, 0, 0)}).overlap);
 }
 
+// Found by the mesh family: the polytope of B − A is so flat around the origin that it cannot be expanded.
+TEST_CASE("an ellipsoid that touches an edge of a triangle within rounding is answered", "[narrow]") {
+  constexpr double half = 1.1384248672565769;
+  const Shape triangle = make_hull({{-half, -half, 0}, {half, -half, 0}, {half, half, 0}}),
+              egg = Ellipsoid{{0.16063052277573625, 0.1373527542821865, 0.20129838533149608}};
+  const Pose turned{Vec3::Zero(),
+                    {0.2760016525769287, 0.6068566349991795, 0.11100131634075007, -0.8302119884560526}};
+  for (int i = -5; i <= 5; ++i)
+    for (int j = -5; j <= 5; ++j) {
+      const Pose pose{Vec3(-0.5650428613186169 + i * u, -0.8245982943972869 + j * u, 0.5560646834358809),
+                      {0.22594235141629906, -0.31003006869361455, 0.8553984913840303, 0.34802992871336697}};
+      INFO(i << " " << j);
+      const DistanceAnswer d = distance({&triangle, turned}, {&egg, pose});
+      CHECK(d.outcome == Outcome::answered);
+      CHECK(std::abs(d.distance) < 1e-14);
+      CHECK(contact({&egg, pose}, {&triangle, turned}).outcome == Outcome::answered);
+    }
+}
+
 TEST_CASE("a pair without an algorithm is unsupported", "[narrow]") {
   const Shape plane = HalfSpace{};
   CHECK(overlap({&plane, {}}, {&plane, at(0, 0, 1)}).outcome == Outcome::unsupported);

@@ -203,4 +203,28 @@ void descend(EpaResult<R>& e, const ConvexCore<R>& a, const ConvexCore<R>& b, R 
   }
 }
 
+/// Improves e in place for bodies that touch within rounding, whose polytope is too flat around the origin to
+/// be expanded. B is moved a little along the best normal: the distance of bodies that are apart is easy to
+/// find, and its normal is the next direction. Where bodies touch along m, moving B along m by t makes their
+/// distance t along m: a fixed point, which an error in the direction approaches by t / (r + t) each time, r
+/// being the radius of curvature of B − A.
+template <class R>
+void part_a_little(EpaResult<R>& e, const ConvexCore<R>& a, const ConvexCore<R>& b, R size, R tolerance) {
+  constexpr int most = 8, budget = 2000;
+  const R away = R(0x1p-10) * size;
+  for (int i = 0; i < most; ++i) {
+    const V3<R> shift = away * e.normal;
+    ConvexCore<R> moved = b;
+    moved.frame.translation += shift;
+    const Distance<R> g = gjk<R>(a, moved, tolerance, tolerance / 4, budget);
+    if (g.status != GjkStatus::separated) return;
+    const R depth = -g.normal.dot(Difference<R>{a, b}.support(-g.normal).w);
+    if (!(depth < e.upper)) return;
+    e.upper = depth;
+    e.normal = g.normal;
+    e.a = g.a;
+    e.b = g.b - shift;
+  }
+}
+
 }  // namespace touchstone::narrow::extended
