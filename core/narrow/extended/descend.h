@@ -203,6 +203,10 @@ void descend(EpaResult<R>& e, const ConvexCore<R>& a, const ConvexCore<R>& b, R 
   }
 }
 
+/// How far `part_a_little` moves B, as a share of the bodies' size: far above rounding, so that the distance
+/// is found well, and below the radii of curvature of bodies that are not needles, so that it converges fast.
+constexpr double parted_share = 0x1p-10;
+
 /// Improves e in place for bodies that touch within rounding, whose polytope is too flat around the origin to
 /// be expanded. B is moved a little along the best normal: the distance of bodies that are apart is easy to
 /// find, and its normal is the next direction. Where bodies touch along m, moving B along m by t makes their
@@ -210,8 +214,9 @@ void descend(EpaResult<R>& e, const ConvexCore<R>& a, const ConvexCore<R>& b, R 
 /// being the radius of curvature of B − A.
 template <class R>
 void part_a_little(EpaResult<R>& e, const ConvexCore<R>& a, const ConvexCore<R>& b, R size, R tolerance) {
-  constexpr int most = 8, budget = 2000;
-  const R away = R(0x1p-10) * size;
+  constexpr int most = 8;
+  constexpr int budget = 2000;
+  const R away = R(parted_share) * size;
   for (int i = 0; i < most; ++i) {
     const V3<R> shift = away * e.normal;
     ConvexCore<R> moved = b;
