@@ -53,13 +53,14 @@ std::string line_of(const std::string& text, const std::string& name) {
 TEST_CASE("on ARM64 the tests pass, and answers in double have the same bytes", "[arm64][optional]") {
   if (const std::string what = missing(); !what.empty()) return touchstone::test::skip(what);
   const Workspace w("arm64");
-  // -O1: compiles in a third of the time. Rounding does not depend on it.
-  const Run built =
-      w.run("cmake -S " TS_SOURCE_DIR " -B " + build +
-            " --toolchain " TS_SOURCE_DIR
-            "/cmake/aarch64-linux-gnu.cmake -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS_RELEASE=-O1 "
-            "-DTOUCHSTONE_WEB=OFF && cmake --build " +
-            build + " --parallel 2 --target ts_core_digest " + joined(tests, " "));
+  // -O1: compiles in a third of the time. Rounding does not depend on it. At -O1, g++ 12 takes values that
+  // were set for ones that may not have been.
+  const Run built = w.run("cmake -S " TS_SOURCE_DIR " -B " + build +
+                          " --toolchain " TS_SOURCE_DIR
+                          "/cmake/aarch64-linux-gnu.cmake -DCMAKE_BUILD_TYPE=Release "
+                          "'-DCMAKE_CXX_FLAGS_RELEASE=-O1 -Wno-maybe-uninitialized' "
+                          "-DTOUCHSTONE_WEB=OFF && cmake --build " +
+                          build + " --parallel 2 --target ts_core_digest " + joined(tests, " "));
   INFO(built.out.substr(built.out.size() - std::min<std::size_t>(built.out.size(), 4000)) << built.err);
   REQUIRE(built.code == 0);
 

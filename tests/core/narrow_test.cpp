@@ -86,6 +86,7 @@ TEST_CASE("an ellipsoid that touches an edge of a triangle within rounding is an
       const DistanceAnswer d = distance({&triangle, turned}, {&egg, pose});
       CHECK(d.outcome == Outcome::answered);
       CHECK(std::abs(d.distance) < 1e-14);
+      CHECK((d.witness[1] - d.witness[0]).norm() < 1e-14);
       CHECK(contact({&egg, pose}, {&triangle, turned}).outcome == Outcome::answered);
     }
 }

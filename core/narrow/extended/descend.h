@@ -203,9 +203,13 @@ void descend(EpaResult<R>& e, const ConvexCore<R>& a, const ConvexCore<R>& b, R 
   }
 }
 
-/// How far `part_a_little` moves B, as a share of the bodies' size: far above rounding, so that the distance
-/// is found well, and below the radii of curvature of bodies that are not needles, so that it converges fast.
-constexpr double parted_share = 0x1p-10;
+/// How far `part_a_little` moves B, as shares of the bodies' size. For the normal: far above rounding, so
+/// that the distance is found well, and below the radii of curvature of bodies that are not needles, so that
+/// it converges fast.
+inline constexpr double parted_for_normal = 0x1p-10;
+/// For the points, which are off by at most √(2 · tolerance · distance) along the contact: little above the
+/// tolerance.
+inline constexpr double parted_for_points = 0x1p-44;
 
 /// Improves e in place for bodies that touch within rounding, whose polytope is too flat around the origin to
 /// be expanded. B is moved a little along the best normal: the distance of bodies that are apart is easy to
@@ -216,20 +220,27 @@ template <class R>
 void part_a_little(EpaResult<R>& e, const ConvexCore<R>& a, const ConvexCore<R>& b, R size, R tolerance) {
   constexpr int most = 8;
   constexpr int budget = 2000;
-  const R away = R(parted_share) * size;
-  for (int i = 0; i < most; ++i) {
-    const V3<R> shift = away * e.normal;
+  const auto parted = [&](const V3<R>& shift) {
     ConvexCore<R> moved = b;
     moved.frame.translation += shift;
-    const Distance<R> g = gjk<R>(a, moved, tolerance, tolerance / 4, budget);
+    return gjk<R>(a, moved, tolerance, tolerance / 4, budget);
+  };
+  for (int i = 0; i < most; ++i) {
+    const V3<R> shift = R(parted_for_normal) * size * e.normal;
+    const Distance<R> g = parted(shift);
     if (g.status != GjkStatus::separated) return;
     const R depth = -g.normal.dot(Difference<R>{a, b}.support(-g.normal).w);
-    if (!(depth < e.upper)) return;
+    if (!(depth < e.upper)) break;
     e.upper = depth;
     e.normal = g.normal;
     e.a = g.a;
     e.b = g.b - shift;
   }
+  const V3<R> shift = R(parted_for_points) * size * e.normal;
+  const Distance<R> g = parted(shift);
+  if (g.status != GjkStatus::separated || !((g.b - shift - g.a).norm() < (e.b - e.a).norm())) return;
+  e.a = g.a;
+  e.b = g.b - shift;
 }
 
 }  // namespace touchstone::narrow::extended
