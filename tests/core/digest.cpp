@@ -60,10 +60,11 @@ void print(const char* name, const Hasher& h) {
 int main(int argc, char** argv) {
   const int cases = argc > 1 ? std::atoi(argv[1]) : 2000;
   Hasher alone, boxes, impacts, extended, exact_boxes;
-  Rng r(2026);
+  Rng rng(2026);
   for (int i = 0; i < cases; ++i) {
-    const ShapeKind kind_a = course::kind(r), kind_b = i % 9 == 0 ? ShapeKind::half_space : course::kind(r);
-    const Pair p = random_pair(r, kind_a, kind_b, regimes[static_cast<std::size_t>(i) % regimes.size()]);
+    const ShapeKind kind_a = course::kind(rng),
+                    kind_b = i % 9 == 0 ? ShapeKind::half_space : course::kind(rng);
+    const Pair p = random_pair(rng, kind_a, kind_b, regimes[static_cast<std::size_t>(i) % regimes.size()]);
     const PlacedShape a = p.placed_a(), b = p.placed_b();
     const OverlapAnswer o = overlap(a, b, Arithmetic::float64_alone);
     alone.add(static_cast<int>(o.outcome)).add(o.overlap).add(o.error_bound);
@@ -75,7 +76,7 @@ int main(int argc, char** argv) {
     }
     if (i % 10 == 0) add(extended, distance(a, b));
     if (i % 10 != 1) continue;
-    const CoursePair c = random_course(r, courses[static_cast<std::size_t>(i / 10) % courses.size()]);
+    const CoursePair c = random_course(rng, courses[static_cast<std::size_t>(i / 10) % courses.size()]);
     add(impacts, time_of_impact({&c.p.a, c.p.pose_a, c.ma}, {&c.p.b, c.p.pose_b, c.mb}));
   }
   std::printf("cases %d\nwide %d bits\n", cases, std::numeric_limits<Wide>::digits);

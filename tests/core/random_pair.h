@@ -37,31 +37,40 @@ inline double scale_of(const Pair& p) {
   return scale_of_pair(s, 0, 1);
 }
 
-inline double random_size(Rng& r, bool lattice) {
-  if (lattice) return static_cast<double>(1 + r.below(4)) / 2;
-  const double u = r.uniform();
+inline double random_size(Rng& rng, bool lattice) {
+  if (lattice) return static_cast<double>(1 + rng.below(4)) / 2;
+  const double u = rng.uniform();
   if (u < 0.03) return 0;
-  if (u < 0.06) return std::ldexp(1 + r.uniform(), -30);
-  if (u < 0.2) return std::ldexp(1 + r.uniform(), -7);
-  return r.uniform(0.2, 1.5);
+  if (u < 0.06) return std::ldexp(1 + rng.uniform(), -30);
+  if (u < 0.2) return std::ldexp(1 + rng.uniform(), -7);
+  return rng.uniform(0.2, 1.5);
 }
 
-inline Hull random_hull(Rng& r, bool lattice) {
+/// Coordinates from −most to most.
+inline Vec3 lattice_point(Rng& rng, int most) {
+  const auto coordinate = [&] { return static_cast<double>(rng.below(2 * most + 1)) - most; };
+  return Vec3{coordinate(), coordinate(), coordinate()};
+}
+
+inline Vec3 point_between(Rng& rng, double least, double most) {
+  const Vec3 n = rng.unit_vector();
+  return n * rng.uniform(least, most);
+}
+
+inline Hull random_hull(Rng& rng, bool lattice) {
   std::vector<Vec3> v;
-  const int n = 1 + static_cast<int>(r.below(r.chance(0.2) ? 4 : 24));
-  const int flat = r.chance(0.15) ? static_cast<int>(r.below(3)) : -1;
+  const int n = 1 + static_cast<int>(rng.below(rng.chance(0.2) ? 4 : 24));
+  const int flat = rng.chance(0.15) ? static_cast<int>(rng.below(3)) : -1;
   for (int i = 0; i < n; ++i) {
-    Vec3 p = lattice ? Vec3(static_cast<double>(r.below(5)) - 2, static_cast<double>(r.below(5)) - 2,
-                            static_cast<double>(r.below(5)) - 2)
-                     : Vec3(r.unit_vector() * r.uniform(0.3, 1.2));
+    Vec3 p = lattice ? lattice_point(rng, 2) : point_between(rng, 0.3, 1.2);
     if (flat >= 0) p[flat] = 0;
     v.push_back(p);
   }
   return make_hull(std::move(v));
 }
 
-inline Shape random_shape(Rng& r, ShapeKind kind, bool lattice) {
-  const auto size = [&] { return random_size(r, lattice); };
+inline Shape random_shape(Rng& rng, ShapeKind kind, bool lattice) {
+  const auto size = [&] { return random_size(rng, lattice); };
   switch (kind) {
     case ShapeKind::sphere:
       return Sphere{size()};
@@ -75,24 +84,24 @@ inline Shape random_shape(Rng& r, ShapeKind kind, bool lattice) {
       return Cone{size(), size()};
     case ShapeKind::ellipsoid: {
       const auto axis = [&] { return std::max(size(), 1e-3); };
-      if (r.chance(0.3)) {
+      if (rng.chance(0.3)) {
         const double x = axis();
-        return Ellipsoid{{x, x, r.chance(0.3) ? x : axis()}};
+        return Ellipsoid{{x, x, rng.chance(0.3) ? x : axis()}};
       }
       return Ellipsoid{{axis(), axis(), axis()}};
     }
     case ShapeKind::hull:
-      return random_hull(r, lattice);
+      return random_hull(rng, lattice);
     default:
-      return HalfSpace{r.unit_vector() * r.uniform(0.5, 2), r.uniform(-1, 1)};
+      return HalfSpace{point_between(rng, 0.5, 2), rng.uniform(-1, 1)};
   }
 }
 
-inline Quat axis_rotation(Rng& r) {
+inline Quat axis_rotation(Rng& rng) {
   static constexpr double s = 0.70710678118654752440;
   const std::array<Quat, 6> q{Quat{0, 0, 0, 1}, Quat{1, 0, 0, 0}, Quat{0, s, 0, s},
                               Quat{s, 0, 0, s}, Quat{0, 0, 1, 1}, Quat{0.5, 0.5, 0.5, 0.5}};
-  return q[r.below(q.size())];
+  return q[rng.below(q.size())];
 }
 
 inline void scale_shape(Shape& s, double k) {
@@ -118,70 +127,69 @@ inline void aim(Pair& p, double gap) {
     p.pose_b.translation += (s.normal * (static_cast<Wide>(gap) - s.gap)).cast<double>();
 }
 
-inline Pair random_pair(Rng& r, ShapeKind ka, ShapeKind kb, Regime regime) {
+inline Pair random_pair(Rng& rng, ShapeKind ka, ShapeKind kb, Regime regime) {
   const bool lattice = regime == Regime::aligned || regime == Regime::lattice_touch;
-  Pair p{random_shape(r, ka, lattice), random_shape(r, kb, lattice), {}, {}};
-  const double fine = std::ldexp(1 + r.uniform(), -static_cast<int>(5 + r.below(46)));
-  p.pose_a.rotation = r.rotation();
-  p.pose_b.rotation = r.rotation();
+  Pair p{random_shape(rng, ka, lattice), random_shape(rng, kb, lattice), {}, {}};
+  const double mantissa = 1 + rng.uniform();
+  const double fine = std::ldexp(mantissa, -static_cast<int>(5 + rng.below(46)));
+  p.pose_a.rotation = rng.rotation();
+  p.pose_b.rotation = rng.rotation();
   switch (regime) {
     case Regime::separate:
-      p.pose_b.translation = r.unit_vector() * r.uniform(2, 8);
+      p.pose_b.translation = point_between(rng, 2, 8);
       break;
     case Regime::near:
-      p.pose_b.translation = r.unit_vector() * 3;
+      p.pose_b.translation = rng.unit_vector() * 3;
       aim(p, fine);
       aim(p, fine);
       break;
     case Regime::shallow:
-      p.pose_b.translation = r.unit_vector() * 3;
+      p.pose_b.translation = rng.unit_vector() * 3;
       aim(p, -fine);
       aim(p, -fine);
       break;
     case Regime::deep:
-      p.pose_b.translation = r.unit_vector() * r.uniform(0, 0.7);
+      p.pose_b.translation = point_between(rng, 0, 0.7);
       break;
     case Regime::contained:
       scale_shape(p.b, 0.05);
-      p.pose_b.translation = r.unit_vector() * r.uniform(0, 0.2);
+      p.pose_b.translation = point_between(rng, 0, 0.2);
       break;
     case Regime::coaxial:
       p.pose_b.rotation = p.pose_a.rotation;
-      if (r.chance(0.3))
-        p.pose_b.rotation = p.pose_a.rotation * Quat{0, 0, r.uniform(-1, 1), r.uniform(-1, 1)};
-      if (r.chance(0.3)) p.pose_b.rotation.x += fine;
-      if (r.chance(0.5)) p.pose_b.translation = r.unit_vector() * fine;
-      if (r.chance(0.3))
-        p.pose_b.translation += rotation_matrix(p.pose_a.rotation).col(2) * r.uniform(-0.5, 0.5);
-      if (r.chance(0.2)) p.b = p.a;
+      if (rng.chance(0.3))
+        p.pose_b.rotation = p.pose_a.rotation * Quat{0, 0, rng.uniform(-1, 1), rng.uniform(-1, 1)};
+      if (rng.chance(0.3)) p.pose_b.rotation.x += fine;
+      if (rng.chance(0.5)) p.pose_b.translation = rng.unit_vector() * fine;
+      if (rng.chance(0.3))
+        p.pose_b.translation += rotation_matrix(p.pose_a.rotation).col(2) * rng.uniform(-0.5, 0.5);
+      if (rng.chance(0.2)) p.b = p.a;
       break;
     case Regime::aligned:
-      p.pose_a.rotation = axis_rotation(r), p.pose_b.rotation = axis_rotation(r);
-      p.pose_b.translation = Vec3(static_cast<double>(r.below(9)) - 4, static_cast<double>(r.below(9)) - 4,
-                                  static_cast<double>(r.below(9)) - 4) /
-                             4;
+      p.pose_a.rotation = axis_rotation(rng);
+      p.pose_b.rotation = axis_rotation(rng);
+      p.pose_b.translation = lattice_point(rng, 4) / 4;
       break;
     case Regime::lattice_touch:
       p.pose_a.rotation = p.pose_b.rotation = {};
-      p.pose_b.translation = Vec3(static_cast<double>(r.below(9)) - 4, static_cast<double>(r.below(9)) - 4,
-                                  static_cast<double>(r.below(9)) - 4) /
-                             2;
+      p.pose_b.translation = lattice_point(rng, 4) / 2;
       aim(p, 0);
       break;
   }
-  if (r.chance(0.3)) {
-    const double k = r.binary_scale(-20, 20);
+  if (rng.chance(0.3)) {
+    const double k = rng.binary_scale(-20, 20);
     scale_shape(p.a, k);
     scale_shape(p.b, k);
     p.pose_a.translation *= k;
     p.pose_b.translation *= k;
   }
-  if (r.chance(0.3)) {
-    const Vec3 offset = r.unit_vector() * std::ldexp(1.0, static_cast<int>(r.below(21)));
+  if (rng.chance(0.3)) {
+    const Vec3 way = rng.unit_vector();
+    const Vec3 offset = way * std::ldexp(1.0, static_cast<int>(rng.below(21)));
     p.pose_a.translation += offset;
     p.pose_b.translation += offset;
   }
-  if (r.chance(0.5)) {
+  if (rng.chance(0.5)) {
     std::swap(p.a, p.b);
     std::swap(p.pose_a, p.pose_b);
   }
