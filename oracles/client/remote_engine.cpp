@@ -114,6 +114,8 @@ class RemoteEngine::Impl {
     for (int tries = 1;; ++tries) try {
         start();
         return true;
+      } catch (const HostMismatch&) {
+        throw;  // no answer of the engine
       } catch (const InputError& e) {
         failed_start_ = std::string("the worker cannot be restarted: ") + e.what();
         if (tries == max_failed_starts) return false;

@@ -11,7 +11,6 @@
 #include <tuple>
 #include <vector>
 
-#include "core/base/input_error.h"
 #include "oracles/client/watchdog.h"
 
 namespace touchstone {
@@ -28,9 +27,10 @@ void wait_for_output(WorkerProcess& worker) {
 
 protocol::Hello of_this_build(protocol::Hello hello) {
   if (hello.built_from != message_id())
-    throw InputError("touchstone-host",
-                     fmt::format("was built from other sources ({}) than this program ({}): build both again",
-                                 hello.built_from, message_id()));
+    throw HostMismatch(
+        "touchstone-host",
+        fmt::format("was built from other sources ({}) than this program ({}): build both again",
+                    hello.built_from, message_id()));
   return hello;
 }
 

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "core/base/input_error.h"
 #include "oracles/abi/protocol.h"
 #include "oracles/client/worker_limits.h"
 #include "oracles/client/worker_process.h"
@@ -14,6 +15,13 @@ namespace touchstone {
 /// How long a worker that has closed its answers is given to end by itself.
 inline constexpr double death_wait_seconds = 2;
 
+/// The host program was built from other sources than this program, perhaps while it ran. No engine is to
+/// blame.
+class HostMismatch : public InputError {
+ public:
+  using InputError::InputError;
+};
+
 struct WorkerSession {
   std::shared_ptr<WorkerProcess> process;
   protocol::FrameReader frames;
@@ -22,7 +30,7 @@ struct WorkerSession {
 
 /// Starts a fork server for the plug-in and reads its hello. `argument` follows the plug-in's path: an engine
 /// name, "" or "--cards". Throws InputError (place: the plug-in) if the process dies, exceeds a limit, or
-/// reports that the plug-in cannot be used.
+/// reports that the plug-in cannot be used; HostMismatch if the host was built from other sources.
 WorkerSession start_fork_server(const std::filesystem::path& host, const std::filesystem::path& plugin,
                                 const std::string& argument, const WorkerLimits& limits);
 

@@ -11,8 +11,11 @@
 #include <memory>
 #include <thread>
 
+#include "oracles/abi/protocol.h"
+#include "oracles/client/worker_session.h"
 #include "tests/oracles/remote_fixture.h"
 #include "tests/support/catch.h"
+#include "tests/support/workspace.h"
 
 using namespace touchstone;
 using namespace touchstone::testing;
@@ -107,6 +110,31 @@ TEST_CASE("the death of the fork server is survived too", "[oracles][remote]") {
     }
   CHECK((killed == 1 || killed == 3));
   CHECK(good + killed == 90);
+}
+
+TEST_CASE("a host that was rebuilt during a run ends the run and is no failure of the engine",
+          "[oracles][remote]") {
+  const test::Workspace w("rebuilt-host");
+  const auto write_host = [&](const std::string& command) {
+    w.write("new-host", "#!/bin/sh\nexec " + command + "\n");
+    std::filesystem::permissions(w.dir / "new-host", std::filesystem::perms::owner_all);
+    std::filesystem::rename(w.dir / "new-host", w.dir / "host");
+  };
+  write_host(host_path().string() + " \"$@\"");
+  RemoteEngine engine({w.dir / "host", plugin_path("ts_bad_behaviours"), "good", {}});
+  const auto cases = make_cases(3, -1);
+  REQUIRE(is_good(engine.run(cases)[0].answers[0], 0, cases[0].queries[0]));
+
+  std::string hello;
+  protocol::append(hello, protocol::Hello{{"{}"}, 0, "", "none", false, "0123456789abcdef"});
+  w.write("hello", hello);
+  write_host("cat " + (w.dir / "hello").string());
+  const pid_t worker = engine.worker_pid(), fork_server = parent_of(worker);
+  REQUIRE(fork_server > 1);
+  REQUIRE(fork_server != getpid());
+  for (const pid_t pid : {fork_server, worker}) kill(pid, SIGKILL);
+  REQUIRE(dies_eventually(worker));
+  CHECK_THROWS_AS(engine.run(cases), HostMismatch);
 }
 
 TEST_CASE("workers outlive the thread that created them", "[oracles][remote]") {
