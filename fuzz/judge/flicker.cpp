@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <tuple>
 
@@ -336,10 +337,43 @@ double excess_of_points(const Pair& p, const Points& was, const Points& is) {
   return *std::min_element(beyond.begin(), beyond.end());
 }
 
+// By how much a point of the earlier frame gets deeper: how far the bodies move towards each other along the
+// normal there, at least and at most, over the ways in which the normal can be carried along.
+Interval<double> sinking(const Pair& p, const Vec3& at) {
+  const Vec3 nearer = p.ways[1].point(at) - p.ways[2].point(at);
+  const Vec3 n = p.before.answer.normal->normalized();
+  Interval<double> r{infinity, -infinity};
+  for (const Carried& way : p.ways) {
+    const double by = (way.turn * n).dot(nearer);
+    r = {std::min(r.lo, by), std::max(r.hi, by)};
+  }
+  return r;
+}
+
+std::size_t number_of(const Observation& o, const std::function<bool(const ManifoldPoint&)>& is_one) {
+  return static_cast<std::size_t>(
+      std::count_if(o.manifold.begin(), o.manifold.end(),
+                    [&](const ManifoldPoint& m) { return m.position.allFinite() && is_one(m); }));
+}
+
+// Whether the points that come were not below the surface before, and those that go are not now: corners of
+// one body that pass the other's plane.
+bool changes_at_surface(const Pair& p, std::size_t was, std::size_t is) {
+  const double slack = referee::contact_slack_factor * p.scale() + 2 * p.rounding();
+  const std::size_t stay = number_of(
+      p.before.answer, [&](const ManifoldPoint& m) { return m.depth + sinking(p, m.position).lo > slack; });
+  const std::size_t stayed = number_of(p.after.answer, [&](const ManifoldPoint& m) {
+    return std::all_of(p.ways.begin() + 1, p.ways.end(), [&](const Carried& body) {
+      return m.depth - sinking(p, body.earlier(m.position)).hi > slack;
+    });
+  });
+  return stay <= is && stayed <= was;
+}
+
 void judge_manifolds(const Pair& p, int frame, FrameChange& out) {
   const Points was = points_of(p.before.answer), is = points_of(p.after.answer);
   if (was.size() != is.size()) {
-    if (!moved_corners(p)) return;
+    if (changes_at_surface(p, was.size(), is.size()) || !moved_corners(p)) return;
     out.flickers.push_back(report(
         p, Flicker::count, frame, std::abs(static_cast<double>(is.size()) - static_cast<double>(was.size())),
         fmt::format("{} points after {}; the contact region keeps its corners", is.size(), was.size())));

@@ -21,6 +21,7 @@ struct Carried {
   Vec3 from = Vec3::Zero(), to = Vec3::Zero();  // a point p goes to turn (p - from) + to
   double change = 0;
   Vec3 point(const Vec3& p) const { return turn * (p - from) + to; }
+  Vec3 earlier(const Vec3& p) const { return turn.transpose() * (p - to) + from; }
 };
 /// Seen from the world, from a, and from b.
 std::array<Carried, 3> carried(const Scene& before, const Scene& after, int a, int b);

@@ -190,6 +190,46 @@ TEST_CASE("a jump of the normal is true, tied or needless by what both normals n
   CHECK(change(0, 0, x, Vec3(1, 0x1p-10, 0).normalized()).flickers.empty());  // the same side
 }
 
+TEST_CASE("a point may come or go at the surface, but not below it", "[frames]") {
+  // A cube sinks into the ground from one depth to another; so many of its corners are stated as points.
+  const auto counts = [](double depth_before, double depth_after, std::size_t n_before, std::size_t n_after) {
+    Case c;
+    c.scene.shapes = {HalfSpace{Vec3::UnitZ(), 0}, Box{Vec3::Ones()}};
+    c.scene.bodies.resize(2);
+    c.scene.bodies[1].shape = 1;
+    Scene scenes[2] = {c.scene, c.scene};
+    Observation o[2];
+    const double depths[] = {depth_before, depth_after};
+    const std::size_t n[] = {n_before, n_after};
+    for (std::size_t k = 0; k < 2; ++k) {
+      scenes[k].bodies[1].pose.translation = Vec3(0, 0, 1 - depths[k]);
+      o[k].outcome = Outcome::answered;
+      o[k].overlap = true;
+      o[k].normal = Vec3::UnitZ();
+      o[k].depth = depths[k];
+      for (std::size_t i = 0; i < n[k]; ++i)
+        o[k].manifold.push_back({Vec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, 0), depths[k]});
+    }
+    fuzz::Truth before(scenes[0]), after(scenes[1]);
+    const fuzz::FrameChange change =
+        fuzz::change_between({before, o[0]}, {after, o[1]}, {Question::contact, 0, 1},
+                             EngineCard{"test", "", "", "", 0x1p-53, 64, ""}, 1);
+    return std::ranges::count(change.flickers, Flicker::count, &FlickerReport::flicker);
+  };
+  constexpr double step = 0x1p-10;
+  CHECK(counts(0, step, 2, 4) == 0);  // two corners were above the ground and are now below it
+  CHECK(counts(step, 0, 4, 2) == 0);
+  CHECK(counts(0, step, 4, 2) == 1);
+  CHECK(counts(step, 0, 2, 4) == 1);
+  for (const auto& [before, after] : {std::pair(step / 8, step), std::pair(8 * step, 9 * step)})
+    for (const std::size_t n : {1, 2, 3}) {
+      CHECK(counts(before, after, n, 4) == 1);
+      CHECK(counts(before, after, 4, n) == 1);
+      CHECK(counts(after, before, n, 4) == 1);
+      CHECK(counts(before, after, 4, 4) == 0);
+    }
+}
+
 TEST_CASE("engines that lie about motions are found, each by what it does", "[frames][mutants]") {
   const auto& lies = mutants::motion_lies();
   CHECK(lies.size() >= 8);
