@@ -397,6 +397,19 @@ TEST_CASE("the core is right about random solids", "[solid]") {
   CHECK(t.unanswered <= t.answers / 20);
 }
 
+TEST_CASE("a shorter way out is found where no face of the parts that meet points to it", "[solid]") {
+  // A polygon that dips into a solid: all ways that pass whole triangles are 0.0126 long or longer.
+  const Case c = fuzz::make_case(20261127, 45472, "surfaces,solids,mesh");
+  REQUIRE(c.scene.bodies.size() == 2);
+  const PlacedShape a(&c.scene.shape_of(0), c.scene.bodies[0].pose);
+  const PlacedShape b(&c.scene.shape_of(1), c.scene.bodies[1].pose);
+  const ContactAnswer found = contact(a, b);
+  REQUIRE(found.outcome == Outcome::answered);
+  REQUIRE(found.overlap);
+  CHECK(found.depth < 0.009);
+  CHECK(found.depth > 0.007);
+}
+
 TEST_CASE("the core is right about many random solids", "[.many]") {
   const char* const count = std::getenv("TOUCHSTONE_SOLID_CASES");
   const auto cases = static_cast<std::uint64_t>(count ? std::atoi(count) : 5000);
