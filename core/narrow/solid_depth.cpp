@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <numeric>
 
 #include "core/math/aabb.h"
 #include "core/math/roundoff.h"
@@ -26,27 +25,21 @@ constexpr std::size_t most_starts = 8;
 // best.
 constexpr double same_direction = 0x1p-30;
 constexpr int most_in_vain = 8;
-// Directions all around, and this far from the best (radians), in which a motion that is shorter by this much
-// is tried, and how often one may be found.
-constexpr int most_around = 1, most_shorter = 64;
-constexpr double near_angle = 0.25, shorter = 0.02;
+// A motion that is this part of the best shorter is tried all around and near the best; near is this far off,
+// of unit length. So often one may be found.
+constexpr double shorter = 0.02, near_offset = 0.25;
+constexpr int most_shorter = 64;
 // Parts of bodies nearly touch that are this much of the bodies' size apart; of such pairs, at most so many.
 constexpr double near_factor = 0x1p-16;
 constexpr std::size_t most_planes = 12;
 
-// The directions from the middle of a cube to the points of a lattice within it.
-std::vector<Vec3> lattice_directions() {
-  constexpr int n = most_around;
+// From the middle of a cube to its corners and to the middles of its edges and faces.
+std::vector<Vec3> directions_around() {
   std::vector<Vec3> r;
-  for (int x = -n; x <= n; ++x)
-    for (int y = -n; y <= n; ++y)
-      for (int z = -n; z <= n; ++z)
-        if (std::gcd(x, std::gcd(y, z)) == 1) r.push_back(Vec3(x, y, z).normalized());
-  return r;
-}
-
-const std::vector<Vec3>& directions_around() {
-  static const std::vector<Vec3> r = lattice_directions();
+  for (int x = -1; x <= 1; ++x)
+    for (int y = -1; y <= 1; ++y)
+      for (int z = -1; z <= 1; ++z)
+        if (x != 0 || y != 0 || z != 0) r.push_back(Vec3(x, y, z).normalized());
   return r;
 }
 
@@ -277,12 +270,13 @@ class Search {
   // each part that it meets as a whole. So, near the best and all around, a motion that is shorter than the
   // best is tried; where B is then clear, a shorter way begins.
   void find_shorter(std::vector<Way>& found) const {
+    const std::vector<Vec3> around = directions_around();
     for (int step = 0; step < most_shorter; ++step) {
       const Way best = found.front();
       const double depth = (1 - shorter) * best.depth;
       std::vector<Vec3> tried;
-      for (const Vec3& v : directions_around()) tried.push_back((best.normal + near_angle * v).normalized());
-      tried.insert(tried.end(), directions_around().begin(), directions_around().end());
+      for (const Vec3& v : around) tried.push_back((best.normal + near_offset * v).normalized());
+      tried.insert(tried.end(), around.begin(), around.end());
       const auto n = std::ranges::find_if(tried, [&](const Vec3& v) { return is_clear(depth, v); });
       if (n == tried.end()) return;
       Way w{*n, shortened(depth, *n)};
