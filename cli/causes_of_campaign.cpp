@@ -88,6 +88,12 @@ fuzz::Causes find_causes(const CausesSearch& search, const fuzz::CampaignResult&
   return fuzz::causes_of(result, config);
 }
 
+fuzz::CampaignResult result_in(const std::string& directory) {
+  fuzz::require_campaign(directory);
+  const fuzz::DirectoryLock lock(directory, fuzz::DirectoryLock::For::reading);
+  return fuzz::load_result(directory);
+}
+
 // Those of the campaign's present state.
 std::optional<fuzz::Causes> stored_causes_of(const std::filesystem::path& directory) {
   if (!fuzz::has_causes(directory)) return std::nullopt;
@@ -114,9 +120,11 @@ fuzz::Causes known_causes(const std::string& directory, const fuzz::CampaignResu
 }
 
 fuzz::Causes causes_without_asking(const std::string& directory) {
-  fuzz::require_campaign(directory);
-  const fuzz::DirectoryLock lock(directory, fuzz::DirectoryLock::For::reading);
-  return known_causes(directory, fuzz::load_result(directory));
+  return known_causes(directory, result_in(directory));
+}
+
+fuzz::Causes causes_before_asking(const std::string& directory) {
+  return fuzz::causes_at_once(result_in(directory), catalogued_knowledge());
 }
 
 FoundCauses causes_of_campaign(CausesSearch& search, bool again) {

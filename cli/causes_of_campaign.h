@@ -37,6 +37,10 @@ FoundCauses causes_of_campaign(CausesSearch& search, bool again);
 /// holds no campaign, or a damaged one.
 fuzz::Causes causes_without_asking(const std::string& directory);
 
+/// Asks no engine, and leaves DIR/causes.json aside: the causes that `fuzz` names at its end. Throws as
+/// above.
+fuzz::Causes causes_before_asking(const std::string& directory);
+
 /// Asks no engine: those in DIR/causes.json if they are of this result, else what is stored alone tells.
 /// `directory` may be empty: the result is stored nowhere.
 fuzz::Causes known_causes(const std::string& directory, const fuzz::CampaignResult& result);

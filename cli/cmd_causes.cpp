@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <iterator>
 
 #include "cli/causes_of_campaign.h"
 #include "cli/chosen_engines.h"
@@ -54,8 +55,32 @@ const fuzz::Cause* find_cause(const fuzz::Causes& causes, const std::string& id)
   return found;
 }
 
-const fuzz::Cause& cause_named(const fuzz::Causes& causes, const std::string& id) {
+std::size_t findings_in_common(const fuzz::Cause& a, const fuzz::Cause& b) {
+  std::vector<std::string> both;
+  std::ranges::set_intersection(a.keys, b.keys, std::back_inserter(both));
+  return both.size();
+}
+
+// Findings are grouped anew once they are examined. `fuzz` named a cause before that: the one with the most
+// of its findings. Null when it named none so.
+const fuzz::Cause* find_regrouped(const fuzz::Causes& causes, const CausesOptions& o) {
+  const fuzz::Causes before = causes_before_asking(o.search.directory);
+  const fuzz::Cause* named = find_cause(before, o.cause);
+  if (!named) return nullptr;
+  const auto common = [&](const fuzz::Cause& c) { return findings_in_common(*named, c); };
+  const auto most = std::ranges::max_element(causes.causes, {}, common);
+  if (most == causes.causes.end() || common(*most) == 0) return nullptr;
+  fmt::print(
+      stderr,
+      "touchstone: {}: its findings were grouped anew when they were examined; this cause has {} of {}\n",
+      o.cause, common(*most), named->keys.size());
+  return &*most;
+}
+
+const fuzz::Cause& cause_named(const fuzz::Causes& causes, const CausesOptions& o) {
+  const std::string& id = o.cause;
   if (const fuzz::Cause* c = find_cause(causes, id)) return *c;
+  if (const fuzz::Cause* c = find_regrouped(causes, o)) return *c;
   std::vector<std::string> known;
   for (const fuzz::Cause& c : causes.causes) known.push_back(c.id);
   throw InputError("--cause " + id, "there is no such cause" + did_you_mean(id, known));
@@ -97,7 +122,7 @@ int print_causes(const CausesOptions& o, fuzz::Causes& causes) {
   if (!o.engine.empty()) keep_engine(causes, o.engine);
   if (!o.out.empty()) write_file(o.out, json_text(to_json(causes), 1) + "\n");
   if (!o.cause.empty()) {
-    fmt::print("{}", one_cause(o, cause_named(causes, o.cause)));
+    fmt::print("{}", one_cause(o, cause_named(causes, o)));
     return exit_clean;
   }
   if (o.json)

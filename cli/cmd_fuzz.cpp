@@ -57,7 +57,8 @@ std::string progress_line(const fuzz::Progress& p, const fuzz::CampaignConfig& c
   std::sort(top.rbegin(), top.rend());
   std::string s = fmt::format("{} cases  {:.0f}/s", reports::grouped(p.result.cases), p.cases_per_s);
   if (p.left_s) s += "  " + reports::clock_text(*p.left_s) + " left";
-  s += fmt::format("  {}: {} wrong  findings:", c.subject, p.result.wrong_of(c.subject));
+  s += fmt::format("  {}: {} wrong{}", c.subject, p.result.wrong_of(c.subject),
+                   top.empty() ? "" : "  findings:");
   for (std::size_t i = 0; i < top.size(); ++i) {
     const std::string item = fmt::format(" {} {}", top[i].second, top[i].first);
     if (s.size() + item.size() > 76) {

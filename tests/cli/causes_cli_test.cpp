@@ -135,4 +135,8 @@ TEST_CASE("a cause is shown by its code before and after it is examined", "[cli]
   CHECK_FALSE(contains(by_code.out, "Not examined yet"));
   CHECK(contains(by_code.out, " causes lies --cause " + id + " --markdown\n"));
   CHECK(w.touchstone("causes lies --cause zzzzzz").code == 2);
+  const Run regrouped = w.touchstone("causes lies --cause " + code);  // as the campaign named it
+  CHECK(regrouped.code == 0);
+  CHECK(contains(regrouped.err, code + ": its findings were grouped anew"));
+  CHECK(contains(regrouped.out, "overlap_always"));
 }
