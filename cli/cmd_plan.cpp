@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "cli/case_argument.h"
@@ -8,16 +9,19 @@
 #include "cli/import_options.h"
 #include "cli/output.h"
 #include "core/base/input_error.h"
+#include "core/shape/convex_body.h"
+#include "oracles/routes/routes.h"
 #include "reports/plan/plan.h"
 #include "reports/text/record_text.h"
 #include "scenarios/codec/json_file.h"
 #include "scenarios/import/real_scene.h"
+#include "scenarios/text/printable.h"
 
 namespace touchstone::cli {
 namespace {
 
 struct PlanArguments {
-  std::string scene, out, use;
+  std::string scene, out, use, page;
   fuzz::PlanOptions plan;
   int steps = 24;
   bool json = false;
@@ -49,25 +53,72 @@ Fidelity plan_in(const std::string& file) {
   return fuzz::fidelity_from_json(j["run"].json(), file + ": run");
 }
 
+routes::Needs::Broad kind_of_broad_phase(std::string_view name) {
+  using enum routes::Needs::Broad;
+  return name == "brute_force" ? all_pairs : name.ends_with("_sweep") ? sweep : tree;
+}
+
+bool is_curved(const Shape& s) {
+  return std::visit([]<class S>(const S&) { return is_convex_shape<S> && !is_polytope_shape<S>; }, s);
+}
+
+routes::Needs needs_of(const fuzz::Plan& p, const std::vector<Shape>& shapes) {
+  // The least error is 2^-44 of the largest coordinate (reports/plan/plan.h); a float rounds it by 2^-24.
+  constexpr double float_over_least = 0x1p20;
+  routes::Needs n{.broad = kind_of_broad_phase(p.broad_phase),
+                  .error = p.error,
+                  .float_rounding = float_over_least * p.least_error,
+                  .margin = p.margin,
+                  .verdict_only = p.verdict_only,
+                  .travel_share = 2 * p.sweep_share};  // of a body that does not turn: |v|/2 > share · r
+  for (const Shape& s : shapes) {
+    n.curved |= is_curved(s);
+    n.half_spaces |= kind_of(s) == ShapeKind::half_space;
+    n.surfaces |= is_mesh(s);
+  }
+  for (const fuzz::PlanSwept& s : p.swept) (s.reason == "turning" ? n.turning : n.travel) = true;
+  return n;
+}
+
+std::vector<fuzz::PlanTerms> terms_of_libraries(const routes::Needs& n) {
+  std::vector<fuzz::PlanTerms> all;
+  for (const routes::Library& l : routes::libraries())
+    if (l.terms) all.push_back({std::string(l.name), l.terms(n)});
+  std::ranges::sort(all, {}, &fuzz::PlanTerms::library);
+  return all;
+}
+
+std::string command_of(const PlanArguments& o) {
+  return o.out.empty()
+             ? fmt::format("{} plan {}", program_name(), shell_word(o.scene))
+             : fmt::format("{} plan {} --use {}", program_name(), shell_word(o.scene), shell_word(o.out));
+}
+
 int run(PlanArguments o, bool error_given) {
   if (error_given && !(o.plan.error > 0 && std::isfinite(o.plan.error)))
     throw InputError("--error", fmt::format("{} is not a positive length", o.plan.error));
   if (!(o.plan.margin >= 0 && std::isfinite(o.plan.margin)))
     throw InputError("--margin", fmt::format("{} is not a length", o.plan.margin));
   require_writable(o.out);
+  require_writable(o.page);
   if (!o.use.empty()) o.plan.given = plan_in(o.use);
   const fuzz::Course course = course_named(o);
   const bool live = isatty(2) == 1;
-  const fuzz::Plan plan = fuzz::make_plan(course, o.plan, [live](const std::string& what) {
+  fuzz::Plan plan = fuzz::make_plan(course, o.plan, [live](const std::string& what) {
     if (live) fmt::print(stderr, "\r\033[K{}", what);
   });
   if (live) fmt::print(stderr, "\r\033[K");
+  plan.terms = terms_of_libraries(needs_of(plan, course.scene.shapes));
   const std::string json = fuzz::to_json(plan).dump(1) + "\n";
   if (!o.out.empty()) write_file(o.out, json);
   fmt::print("{}", o.json ? json : reports::plan_text(plan));
   if (!o.out.empty())
     fmt::print(o.json ? stderr : stdout, "{}: run it with StepWorld, or measure it again with --use\n",
                o.out);
+  if (!o.page.empty()) {
+    if (!write_page("plan", json_text(reports::plan_page(plan, command_of(o))), o.page)) return exit_failed;
+    fmt::print(stderr, "{}: open it in a browser\n", printable(o.page));
+  }
   for (const fuzz::PlanRow& r : plan.rows)
     if (r.is_plan && r.outside > 0) return exit_wrong;
   return plan.judged > plan.undecided ? exit_clean : exit_failed;
@@ -96,6 +147,7 @@ Run declare_plan(CLI::App& app) {
       ->excludes(margin)
       ->excludes(verdict);
   app.add_option("-o,--out", o->out, "file for the plan (JSON), which StepWorld can run");
+  app.add_option("--page", o->page, "file for a page with all bodies, pairs and choices");
   app.add_option("--steps", o->steps, "number of steps of a recording to use")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();

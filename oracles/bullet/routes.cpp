@@ -1,5 +1,7 @@
 // Bullet 3: the tables of btDefaultCollisionConfiguration. The simulation has algorithms of its own for pairs
 // of boxes and of spheres; queries ask the closest-points table, where boxes go through GJK and EPA.
+#include <fmt/format.h>
+
 #include "oracles/routes/routes.h"
 
 namespace touchstone::routes {
@@ -40,6 +42,47 @@ std::vector<Related> related() {
   return all;
 }
 
+std::string_view broad_phase(Needs::Broad b) {
+  if (b == Needs::Broad::sweep) return "btAxisSweep3, with a world box around all bodies.";
+  return b == Needs::Broad::all_pairs ? "btSimpleBroadphase." : "btDbvtBroadphase.";
+}
+
+std::string precision(const Needs& n) {
+  if (n.error < n.float_rounding)
+    return fmt::format(
+        "Precision: BT_USE_DOUBLE_PRECISION; floats round this scene's coordinates by up to {:.1g}, more "
+        "than "
+        "the error.",
+        n.float_rounding);
+  return fmt::format(
+      "Precision: floats round this scene's coordinates by up to {:.1g}, less than the error; that bounds no "
+      "answer of Bullet's.",
+      n.float_rounding);
+}
+
+std::vector<std::string> terms(const Needs& n) {
+  constexpr double default_margin = 0.04;  // CONVEX_DISTANCE_MARGIN
+  std::vector<std::string> all{fmt::format("Broad phase: {}", broad_phase(n.broad)), precision(n)};
+  if (n.error < default_margin)
+    all.emplace_back(
+        "Margins: setMargin(0) for all shapes but spheres and capsules, whose margin is their radius; the "
+        "default, 0.04, is more than the error.");
+  if (n.margin > 0)
+    all.push_back(fmt::format(
+        "Pairs within {:.3g}: contactPairTest() with m_closestDistanceThreshold = {:.3g} in the callback.",
+        n.margin, n.margin));
+  if (n.travel || n.turning)
+    all.push_back(fmt::format(
+        "Bodies to be swept: setCcdMotionThreshold({}) and setCcdSweptSphereRadius(r), with the body's inner "
+        "radius r.",
+        n.travel_share == 1 ? "r" : fmt::format("{:.3g} * r", n.travel_share)));
+  if (n.turning)
+    all.emplace_back(
+        "Rotation is not swept, only a sphere along a straight line: bodies that are swept because of their "
+        "rotation need shorter steps.");
+  return all;
+}
+
 }  // namespace
 
 Library bullet_library() {
@@ -50,7 +93,8 @@ Library bullet_library() {
           related(),
           {{"bullet-f32-", "bullet-"}, {"bullet-f64-", "bullet-"}},
           "btContinuousConvexCollision.cpp: \"don't report time of impact for motion away from the contact "
-          "normal\""};
+          "normal\"",
+          terms};
 }
 
 }  // namespace touchstone::routes

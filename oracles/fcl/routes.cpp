@@ -1,6 +1,8 @@
 // FCL 0.7: closed forms are specialisations of shapeIntersect in gjk_solver_libccd-inl.h and
 // gjk_solver_indep-inl.h; distances have fewer, and none with enable_signed_distance, which the shipped
 // engine asks for.
+#include <fmt/format.h>
+
 #include "oracles/routes/routes.h"
 
 namespace touchstone::routes {
@@ -50,8 +52,47 @@ std::vector<Related> related() {
   };
 }
 
+std::string_view manager(Needs::Broad b) {
+  if (b == Needs::Broad::sweep) return "SSaPCollisionManager; SaPCollisionManager loses pairs.";
+  if (b == Needs::Broad::all_pairs) return "NaiveCollisionManager.";
+  return "DynamicAABBTreeCollisionManager; SpatialHashingCollisionManager misses boxes that touch.";
+}
+
+std::vector<std::string> terms(const Needs& n) {
+  constexpr double taken_for_gap = 2.1e-4;  // depths of curved shapes of unit size, measured with FCL 0.7
+  std::vector<std::string> all{fmt::format("Broad phase: {}", manager(n.broad))};
+  if (n.verdict_only) {
+    all.emplace_back(
+        "Verdicts: collide() with gjk_tolerance 1e-12; the default, 1e-6, misses shallow overlaps.");
+  } else {
+    all.emplace_back("Gaps: distance() with distance_tolerance 1e-12, not its default, 1e-6.");
+    all.emplace_back(
+        "Depths, where that returns -1: distance() with enable_signed_distance and distance_tolerance 1e-7; "
+        "with "
+        "less it aborts for many pairs. A depth of collide() is only an upper bound.");
+    if (n.curved && n.error < taken_for_gap)
+      all.push_back(
+          fmt::format("Curved shapes: depths of up to {} (of bodies of unit size) may be taken for gaps: "
+                      "more than the error.",
+                      taken_for_gap));
+  }
+  if (n.margin > 0)
+    all.push_back(
+        fmt::format("Pairs within {:.3g}: the manager's distance() with a callback that sets dist to {:.3g}.",
+                    n.margin, n.margin));
+  if (n.half_spaces)
+    all.emplace_back(
+        "Half-spaces: collide() only; with GST_LIBCCD, distance() and continuousCollide() crash.");
+  if (n.travel || n.turning)
+    all.push_back(fmt::format(
+        "Bodies to be swept: continuousCollide() with CCDM_LINEAR and CCDC_CONSERVATIVE_ADVANCEMENT{}; the "
+        "default, CCDC_NAIVE, tests ten poses.",
+        n.surfaces ? ", not for meshes" : ""));
+  return all;
+}
+
 }  // namespace
 
-Library fcl_library() { return {"FCL", "fcl", route, documents, related()}; }
+Library fcl_library() { return {"FCL", "fcl", route, documents, related(), {}, {}, terms}; }
 
 }  // namespace touchstone::routes

@@ -1,10 +1,11 @@
 // What is known of a library beyond its engines' cards: which routine it chooses for a question about two
-// shapes, which of its faults its documentation states, and which of its engines differ in one respect.
-// Faults on one route may have one cause. Each library's part is in its folder, in routes.cpp, which defines
-// `Library <folder>_library()`; the build finds it.
+// shapes, which of its faults its documentation states, which of its engines differ in one respect, and what
+// a plan is in its classes and settings. Faults on one route may have one cause. Each library's part is in
+// its folder, in routes.cpp, which defines `Library <folder>_library()`; the build finds it.
 #pragma once
 
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -50,6 +51,20 @@ struct SameCode {
   std::string_view begins, code;
 };
 
+/// What `touchstone plan` found that a scene needs, to be put in a library's own terms. Lengths in the
+/// scene's unit.
+struct Needs {
+  enum class Broad { tree, sweep, all_pairs };
+  Broad broad = Broad::tree;
+  double error = 0;           // of gaps and depths
+  double float_rounding = 0;  // of the largest coordinate, when it is stored as a float
+  double margin = 0;          // pairs this near are reported
+  bool verdict_only = false;  // no gaps and depths
+  bool curved = false, half_spaces = false, surfaces = false;  // shapes among the pairs; surfaces: meshes
+  bool travel = false, turning = false;                        // why bodies must be swept; neither: none must
+  double travel_share = 0;  // bodies that move farther in a step than this times their inner radius are swept
+};
+
 /// Engines are given by the names that they have in the library's adapter.
 struct Library {
   std::string_view name;    // for people
@@ -65,6 +80,9 @@ struct Library {
   /// Where the library's documentation states that impacts of bodies that are in contact at the start and
   /// move apart are not reported; empty: nowhere.
   std::string_view parting = {};
+  /// The library's classes, functions and settings that give what a scene needs, a sentence or two each.
+  /// Null: not known.
+  std::vector<std::string> (*terms)(const Needs& n) = nullptr;
 };
 
 /// Those that have a part in their folder, sorted by folder.

@@ -3,7 +3,7 @@
 namespace touchstone::fuzz {
 Json to_json(const Plan& p) {
   Json phases = Json::array(), pairs = Json::array(), shapes = Json::array(), swept = Json::array(),
-       rows = Json::array();
+       rows = Json::array(), terms = Json::array();
   for (const PlanPhase& x : p.phases) phases.push_back({{"name", x.name}, {"ns_step", number(x.ns_step)}});
   for (const PlanPair& x : p.pairs)
     pairs.push_back({{"pair", x.pair},
@@ -41,6 +41,7 @@ Json to_json(const Plan& p) {
                     {"unanswered", x.unanswered},
                     {"unswept", x.unswept},
                     {"front", x.front}});
+  for (const PlanTerms& x : p.terms) terms.push_back({{"library", x.library}, {"lines", x.lines}});
   return {{"touchstone_plan", 1},
           {"machine", to_json(p.machine)},
           {"scene", p.scene},
@@ -58,7 +59,8 @@ Json to_json(const Plan& p) {
           {"shapes", std::move(shapes)},
           {"swept", std::move(swept)},
           {"evidence", {{"judged", p.judged}, {"undecided", p.undecided}, {"unsupported", p.unsupported}}},
-          {"rows", std::move(rows)}};
+          {"rows", std::move(rows)},
+          {"terms", std::move(terms)}};
 }
 
 }  // namespace touchstone::fuzz

@@ -54,6 +54,12 @@ struct PlanRow {
   bool sound() const { return outside == 0 && unanswered == 0 && unswept == 0; }
 };
 
+/// What the plan chose, in the classes and settings of another library.
+struct PlanTerms {
+  std::string library;
+  std::vector<std::string> lines;  // sentences
+};
+
 struct Plan {
   Machine machine;
   std::string scene;
@@ -72,6 +78,7 @@ struct Plan {
   std::vector<PlanSwept> swept;                              // farthest beyond the criterion first
   std::uint64_t judged = 0, undecided = 0, unsupported = 0;  // sampled pairs
   std::vector<PlanRow> rows;                                 // fastest first
+  std::vector<PlanTerms> terms;
 };
 
 Json to_json(const Plan& p);

@@ -22,6 +22,10 @@ namespace touchstone::reports {
 /// What to run and how much it saves, then the evidence; in 80 columns.
 std::string plan_text(const fuzz::Plan& p);
 
+/// The data that reports/web/src/plan draws: the record with sentences about it. `command` makes or measures
+/// the plan again.
+fuzz::Json plan_page(const fuzz::Plan& p, const std::string& command);
+
 /// Wrong answers, worst errors, times and the padding by engine, and the advice; in 80 columns. Lengths in
 /// millimetres, for scenes in metres.
 std::string assessment_text(const fuzz::Assessment& a);

@@ -307,6 +307,7 @@ std::optional<ResultLine> line_of_page(const Json& document, const JsonReader& j
   if (page == "chart") return chart(document, j.file());
   if (page == "stability") return stability(j);
   if (page == "assess") return assessment(j["assessment"]);
+  if (page == "plan") return plan(j["plan"]);
   if (page == "case") return case_page(j);
   return std::nullopt;
 }

@@ -78,3 +78,40 @@ TEST_CASE("related engines differ in one respect by name, and say so", "[routes]
       CHECK_FALSE(r.if_gone.empty());
     }
 }
+
+TEST_CASE("what a scene needs is put in the terms of FCL and Bullet", "[routes]") {
+  const auto terms = [](std::string_view engine, const routes::Needs& n) {
+    std::string all;
+    for (const std::string& line : routes::library_of(engine)->terms(n)) all += line + "\n";
+    return all;
+  };
+  const auto has = [](const std::string& text, std::string_view part) {
+    return text.find(part) != std::string::npos;
+  };
+  routes::Needs n{.error = 1e-8, .float_rounding = 1e-6, .curved = true, .travel_share = 1};
+  CHECK(has(terms("fcl-libccd", n), "DynamicAABBTreeCollisionManager"));
+  CHECK(has(terms("fcl-libccd", n), "distance_tolerance 1e-12"));
+  CHECK(has(terms("fcl-libccd", n), "may be taken for gaps"));
+  CHECK(has(terms("bullet-f32-query", n), "BT_USE_DOUBLE_PRECISION"));
+  CHECK(has(terms("bullet-f32-query", n), "setMargin(0)"));
+  for (const std::string_view engine : {"fcl-libccd", "bullet-f32-query"})
+    CHECK_FALSE(has(terms(engine, n), "swept"));
+  n = {.broad = routes::Needs::Broad::sweep,
+       .error = 0.1,
+       .margin = 0.25,
+       .half_spaces = true,
+       .turning = true,
+       .travel_share = 0.5};
+  CHECK(has(terms("fcl-libccd", n), "SSaPCollisionManager"));
+  CHECK(has(terms("fcl-libccd", n), "Pairs within 0.25"));
+  CHECK(has(terms("fcl-libccd", n), "Half-spaces: collide() only"));
+  CHECK(has(terms("fcl-libccd", n), "CCDC_CONSERVATIVE_ADVANCEMENT"));
+  CHECK_FALSE(has(terms("fcl-libccd", n), "may be taken for gaps"));
+  CHECK(has(terms("bullet-f32-query", n), "btAxisSweep3"));
+  CHECK(has(terms("bullet-f32-query", n), "setCcdMotionThreshold(0.5 * r)"));
+  CHECK(has(terms("bullet-f32-query", n), "need shorter steps"));
+  CHECK_FALSE(has(terms("bullet-f32-query", n), "setMargin"));
+  const std::string verdicts = terms("fcl-libccd", {.verdict_only = true, .curved = true});
+  CHECK(has(verdicts, "gjk_tolerance 1e-12"));
+  CHECK_FALSE(has(verdicts, "Depths"));
+}

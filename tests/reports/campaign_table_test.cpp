@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "reports/text/text.h"
+#include "tests/support/characters.h"
 
 using namespace touchstone;
 using reports::campaign_table;
@@ -18,11 +19,6 @@ fuzz::Tally counted_answers(std::uint64_t answers, std::uint64_t wrong, std::uin
   t.wrong = wrong;
   t.right = answers - wrong;
   return t;
-}
-
-std::ptrdiff_t characters(const std::string& utf8) {
-  return std::count_if(utf8.begin(), utf8.end(),
-                       [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; });
 }
 
 }  // namespace
@@ -58,7 +54,7 @@ TEST_CASE("the table keeps to 80 columns for long names and large counts", "[tab
   INFO(table);
   std::istringstream in(table);
   int rows = 0;
-  for (std::string line; std::getline(in, line); ++rows) CHECK(characters(line) <= 80);
+  for (std::string line; std::getline(in, line); ++rows) CHECK(touchstone::test::characters(line) <= 80);
   CHECK(rows == 6);
   CHECK(table.find("<.1/100 <.1/100") != std::string::npos);
   CHECK(table.find('\x1b') == std::string::npos);

@@ -32,7 +32,7 @@ const fs::path built = TS_BINARY_DIR "/share/touchstone/web";
 // Empty when everything that a browser test needs is present.
 std::string missing_for_browser() {
   for (const char* kind :
-       {"assess", "broad", "case", "causes", "report", "chart", "stability", "certificate", "index"})
+       {"assess", "broad", "case", "causes", "report", "chart", "stability", "certificate", "index", "plan"})
     if (!fs::exists(built / (std::string(kind) + ".html"))) return "the built pages";
   if (!fs::exists(TS_BINARY_DIR "/web/node_modules/playwright-core")) return "playwright-core";
   if (!touchstone::test::has_command("node")) return "node";
@@ -132,6 +132,7 @@ TEST_CASE("pages load, show the numbers of their JSON, draw, move and link in a 
         "view swap_places -o script.html" + few,
         std::string("view thousand_balls -o crowd.html --engines core"),
         std::string("view swap_places --broad -o broad.html --json > broad.json"),
+        std::string("plan ball_into_the_ground --rounds 1 --judged 8 --page plan.html"),
         "stability --quick --ladder gap --out ." + few,
         "chart --quick --measure 0 --broad grid,brute_force --out ." + few}) {
     const auto r = w.touchstone(line);

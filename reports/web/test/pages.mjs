@@ -2,7 +2,7 @@
 // motion.html, report.html, chart.html, stability.html, many.html: a report of 1e5 kinds of
 // findings, separate.html, touching.html, curved.html, mesh.html, script.html, crowd.html: cases of these kinds, certified.html, refuted.html: certificates of broad phases,
 // index.html: the index of all these,
-// broad.html, broad.json: a script's broad phases as a page and as `--json`. Prints one line a check; exit code 1 when one fails.
+// plan.html: a plan that sweeps a body, broad.html, broad.json: a script's broad phases as a page and as `--json`. Prints one line a check; exit code 1 when one fails.
 import { readFileSync, statSync } from "node:fs";
 import { join } from "node:path";
 import { address, barriers, check, data, dir, end, open, shoot, wide } from "./browser.mjs";
@@ -25,7 +25,7 @@ const colours = (page) =>
   });
 const picture = (page) => page.evaluate(() => document.querySelector("#view canvas").toDataURL());
 
-for (const name of ["case.html", "crowd.html", "motion.html", "report.html", "many.html", "chart.html", "stability.html", "certified.html", "refuted.html", "broad.html", "index.html"]) {
+for (const name of ["case.html", "crowd.html", "motion.html", "report.html", "many.html", "chart.html", "stability.html", "certified.html", "refuted.html", "broad.html", "index.html", "plan.html"]) {
   check(`${name} is smaller than 5 MB`, statSync(join(dir, name)).size < 5e6);
   for (const size of [{ width: 1280, height: 720 }, { width: 390, height: 844, dark: true }]) {
     const { page, errors } = await open(name, size);
@@ -67,6 +67,20 @@ for (const name of ["case.html", "crowd.html", "motion.html", "report.html", "ma
     check("broad.html's slider moves the boxes", full.frames.length > 1 && (await drawn()) !== first);
     await page.close();
   }
+}
+
+{
+  const { page } = await open("plan.html");
+  const { plan } = await data(page);
+  const choices = await page.$$eval("tr[data-choice]", (r) => r.map((x) => [x.dataset.choice, x.className === "chosen", x.lastChild.textContent]));
+  check("the plan stands beside the fixed choices", choices.length === plan.rows.length && plan.rows.every((r, i) => choices[i][0] === r.name && choices[i][1] === r.plan && choices[i][2].startsWith("unsound") === (r.outside + r.unanswered + r.unswept > 0)), JSON.stringify(choices));
+  const bodies = () => page.$$eval("tr[data-body]", (r) => r.map((x) => Number(x.dataset.body)));
+  check("the bodies to be swept are listed", plan.swept.length > 0 && (await bodies()).join() === plan.swept.map((s) => s.body).join());
+  await page.fill("#filter", "no such body");
+  check("and can be filtered", (await bodies()).length === 0 && (await address(page)).includes("body=no+such+body"));
+  const terms = await page.$$eval("main li", (all) => all.map((x) => x.textContent));
+  check("the plan is put in the terms of other libraries", plan.terms.length >= 2 && plan.terms.flatMap((t) => t.lines).join() === terms.join());
+  await page.close();
 }
 
 {
