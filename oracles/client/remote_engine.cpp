@@ -34,6 +34,12 @@ struct Cursor {
   bool operator==(const Cursor&) const = default;
 };
 
+// Tells whether a file was written again. Zeros for a command behind a pipe.
+std::pair<std::filesystem::file_time_type, std::uintmax_t> stamp_of(const std::filesystem::path& file) {
+  std::error_code none;
+  return {std::filesystem::last_write_time(file, none), std::filesystem::file_size(file, none)};
+}
+
 Observation failure(Outcome outcome, const std::string& detail, std::string site = "") {
   return no_answer(outcome, printable(detail, "\n\t"), std::move(site));
 }
@@ -42,7 +48,8 @@ Observation failure(Outcome outcome, const std::string& detail, std::string site
 
 class RemoteEngine::Impl {
  public:
-  explicit Impl(RemoteSpec spec) : spec_(std::move(spec)), watchdog_(spec_.limits) {
+  explicit Impl(RemoteSpec spec)
+      : spec_(std::move(spec)), stamp_(stamp_of(spec_.plugin)), watchdog_(spec_.limits) {
     if (spec_.native) {
       card_ = *spec_.native;
       return;
@@ -114,7 +121,7 @@ class RemoteEngine::Impl {
     for (int tries = 1;; ++tries) try {
         start();
         return true;
-      } catch (const HostMismatch&) {
+      } catch (const ProgramMismatch&) {
         throw;  // no answer of the engine
       } catch (const InputError& e) {
         failed_start_ = std::string("the worker cannot be restarted: ") + e.what();
@@ -134,6 +141,8 @@ class RemoteEngine::Impl {
   void start() {
     if (!fork_server_ || fork_server_->process->has_ended()) {
       fork_server_.reset();
+      if (stamp_of(spec_.plugin) != stamp_)
+        throw ProgramMismatch(spec_.plugin.string(), "was changed while it was in use: start the run again");
       fork_server_ = spec_.native ? share_native_fork_server(spec_.host, spec_.plugin, spec_.limits)
                                   : std::make_shared<const WorkerSession>(start_fork_server(
                                         spec_.host, spec_.plugin, spec_.engine, spec_.limits));
@@ -330,6 +339,7 @@ class RemoteEngine::Impl {
   }
 
   RemoteSpec spec_;
+  const decltype(stamp_of({})) stamp_;  // of the plug-in, when its first worker was started
   Watchdog watchdog_;
   std::shared_ptr<const WorkerSession> fork_server_;
   std::optional<WorkerSession> session_;  // ends before its fork server

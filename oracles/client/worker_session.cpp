@@ -27,7 +27,7 @@ void wait_for_output(WorkerProcess& worker) {
 
 protocol::Hello of_this_build(protocol::Hello hello) {
   if (hello.built_from != message_id())
-    throw HostMismatch(
+    throw ProgramMismatch(
         "touchstone-host",
         fmt::format("was built from other sources ({}) than this program ({}): build both again",
                     hello.built_from, message_id()));

@@ -15,9 +15,9 @@ namespace touchstone {
 /// How long a worker that has closed its answers is given to end by itself.
 inline constexpr double death_wait_seconds = 2;
 
-/// The host program was built from other sources than this program, perhaps while it ran. No engine is to
-/// blame.
-class HostMismatch : public InputError {
+/// The host program was built from other sources than this program, perhaps while it ran, or a plug-in was
+/// changed while it was in use. No engine is to blame.
+class ProgramMismatch : public InputError {
  public:
   using InputError::InputError;
 };
@@ -30,7 +30,7 @@ struct WorkerSession {
 
 /// Starts a fork server for the plug-in and reads its hello. `argument` follows the plug-in's path: an engine
 /// name, "" or "--cards". Throws InputError (place: the plug-in) if the process dies, exceeds a limit, or
-/// reports that the plug-in cannot be used; HostMismatch if the host was built from other sources.
+/// reports that the plug-in cannot be used; ProgramMismatch if the host was built from other sources.
 WorkerSession start_fork_server(const std::filesystem::path& host, const std::filesystem::path& plugin,
                                 const std::string& argument, const WorkerLimits& limits);
 

@@ -54,6 +54,14 @@ bool dies_eventually(pid_t pid) {
   return !is_alive(pid);
 }
 
+void kill_with_fork_server(pid_t worker) {
+  const pid_t fork_server = parent_of(worker);
+  REQUIRE(fork_server > 1);
+  REQUIRE(fork_server != getpid());
+  for (const pid_t pid : {fork_server, worker}) kill(pid, SIGKILL);
+  REQUIRE(dies_eventually(worker));
+}
+
 }  // namespace
 
 TEST_CASE("kill -9 of the worker in the middle of a run costs the running query", "[oracles][remote]") {
@@ -129,12 +137,25 @@ TEST_CASE("a host that was rebuilt during a run ends the run and is no failure o
   protocol::append(hello, protocol::Hello{{"{}"}, 0, "", "none", false, "0123456789abcdef"});
   w.write("hello", hello);
   write_host("cat " + (w.dir / "hello").string());
-  const pid_t worker = engine.worker_pid(), fork_server = parent_of(worker);
-  REQUIRE(fork_server > 1);
-  REQUIRE(fork_server != getpid());
-  for (const pid_t pid : {fork_server, worker}) kill(pid, SIGKILL);
-  REQUIRE(dies_eventually(worker));
-  CHECK_THROWS_AS(engine.run(cases), HostMismatch);
+  kill_with_fork_server(engine.worker_pid());
+  CHECK_THROWS_AS(engine.run(cases), ProgramMismatch);
+}
+
+TEST_CASE("a plug-in that was changed during a run ends the run and is no failure of the engine",
+          "[oracles][remote]") {
+  const test::Workspace w("changed-plugin");
+  const std::filesystem::path plugin = w.dir / "mine.so";
+  std::filesystem::copy_file(plugin_path("ts_bad_behaviours"), plugin);
+  RemoteEngine engine({host_path(), plugin, "good", {}});
+  const auto cases = make_cases(3, -1);
+  REQUIRE(is_good(engine.run(cases)[0].answers[0], 0, cases[0].queries[0]));
+  kill_with_fork_server(engine.worker_pid());
+  REQUIRE(is_good(engine.run(cases)[0].answers[0], 0, cases[0].queries[0]));  // not changed: goes on
+  kill_with_fork_server(engine.worker_pid());
+  std::filesystem::copy_file(plugin, w.dir / "new.so");
+  std::ofstream(w.dir / "new.so", std::ios::app) << "more";
+  std::filesystem::rename(w.dir / "new.so", plugin);
+  CHECK_THROWS_AS(engine.run(cases), ProgramMismatch);
 }
 
 TEST_CASE("workers outlive the thread that created them", "[oracles][remote]") {
