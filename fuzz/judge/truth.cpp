@@ -203,11 +203,18 @@ referee::Bracket Truth::width(int frame, int a, int b, const Vec3& n) const {
   return referee::width(placed(frame, a), placed(frame, b), n);
 }
 
-referee::Bracket Truth::width_at(int frame, int a, int b, double t, const Vec3& n) const {
-  Placed moved = placed(frame, b);
-  const Vec3 way = t * motion_of(asked_, b).linear;
+Placed Truth::placed_after(int frame, int body, const Vec3& way) const {
+  Placed moved = placed(frame, body);
   std::visit([&](auto& pose) { pose.translation += way; }, moved.pose);
-  return referee::width(placed(frame, a), moved, n);
+  return moved;
+}
+
+referee::PairTruth Truth::pair_after(int frame, int a, int b, const Vec3& way) const {
+  return referee::judge_pair(placed(frame, a), placed_after(frame, b, way));
+}
+
+referee::Bracket Truth::width_at(int frame, int a, int b, double t, const Vec3& n) const {
+  return referee::width(placed(frame, a), placed_after(frame, b, t * motion_of(asked_, b).linear), n);
 }
 
 referee::Bracket Truth::distance_to(int frame, int body, const Vec3& p, double enough) const {

@@ -38,6 +38,8 @@ class Truth {
 
   Placed placed(int frame, int body) const;
   const referee::PairTruth& pair(int frame, int a, int b);
+  /// The same after b has moved by `way`; not cached.
+  referee::PairTruth pair_after(int frame, int a, int b, const Vec3& way) const;
   /// Is the gap at most the scene's margin? overlap: yes; disjoint: no.
   referee::Verdict within(int frame, int a, int b);
   const referee::TimeTruth& motion(int frame, int a, int b);
@@ -101,6 +103,7 @@ class Truth {
     double displacement = 0;
     std::optional<std::vector<TruePair>> scene_pairs;
   };
+  Placed placed_after(int frame, int body, const Vec3& way) const;
   std::vector<TruePair> overlapping(const std::vector<std::optional<Placed>>& bodies);
   std::vector<TruePair> near(const std::vector<std::optional<Placed>>& bodies);
   std::vector<std::optional<Placed>> present(const StepState& state) const;

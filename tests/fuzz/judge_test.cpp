@@ -82,6 +82,21 @@ TEST_CASE("a contact must separate, and its depth must be minimal", "[judge]") {
   CHECK(has(judge_one(c, contact({1, 0, 0}, NAN)), Fault::no_number));
 }
 
+TEST_CASE("a depth along a poor normal is infeasible only if the bodies still overlap after it", "[judge]") {
+  const Case c = spheres(1.5, Question::contact);
+  // Planes with this normal separate the spheres after 1.1; moved along it by 0.7, they touch.
+  const Vec3 poor(0.6, 0.8, 0);
+  const Judgement apart = judge_one(c, contact(poor, 0.8));
+  CHECK(has(apart, Fault::not_minimal));
+  CHECK_FALSE(has(apart, Fault::infeasible));
+  const Judgement deep = judge_one(c, contact(poor, 0.6));
+  CHECK(has(deep, Fault::not_minimal));
+  REQUIRE(has(deep, Fault::infeasible));
+  CHECK(std::ranges::any_of(deep.faults, [](const FaultReport& f) {
+    return f.words == "moving by the stated depth 0.6 along the stated normal leaves 0.0790627 of overlap";
+  }));
+}
+
 TEST_CASE("a wrong distance that prints like the true one is told by its error", "[judge]") {
   Observation o = answered();
   o.distance = 1 + 0x1p-36;

@@ -1,9 +1,10 @@
 // Contact: the verdict, then normal and depth by feasibility and regret (docs/truth.md §3).
 //
-// With w(n) = h_A(n) + h_B(-n), moving B by w(n) along n separates the bodies and moving by less does not. So
-// a depth d with normal n is infeasible by w(n) - d, excessive by d - w(n) (pushing by d leaves a gap, §5),
-// and the direction is worse than the best by w(n) - d*. Any of several best normals passes; nothing else
-// does. For bodies that are apart by no more than τ, d* is 0.
+// With w(n) = h_A(n) + h_B(-n), moving B by w(n) along n separates the bodies by a plane with the normal n,
+// and moving by less does not. So a depth d with normal n is infeasible by w(n) - d, excessive by d - w(n)
+// (pushing by d leaves a gap, §5), and the direction is worse than the best by w(n) - d*. Any of several best
+// normals passes; nothing else does. For bodies that are apart by no more than τ, d* is 0. If n is not the
+// best, a plane with another normal may separate the bodies sooner: if so by d, the normal alone is at fault.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -92,6 +93,27 @@ void note_open_depth(const CheckInput& in, CheckOutput& out, const StatedContact
   if (!is_least || !is_depth) out.not_judged("a solid's depth within its bracket", true);
 }
 
+// Of a depth that is less than the plane with the contact's normal needs. Empty: B has then left A all the
+// same, and its normal is at fault already.
+std::string words_on_infeasible(const CheckInput& in, const StatedContact& c, const referee::Bracket& w,
+                                double tau, bool is_poor) {
+  const double depth = *c.depth;
+  // For others, w is how far B must move along the normal, whatever plane separates them.
+  const auto is_plain = [&](int body) { return is_convex(kind_of(*in.truth.placed(in.frame, body).shape)); };
+  if (!is_plain(c.a) || !is_plain(c.b))
+    return fmt::format("moving by the stated depth {:.9g} along the stated normal leaves {:.6g} of overlap",
+                       depth, w.lo - depth);
+  if (depth >= 0) {
+    const double left = -in.truth.pair_after(in.frame, c.a, c.b, depth * *c.normal).gap.hi;
+    if (left > tau)
+      return fmt::format("moving by the stated depth {:.9g} along the stated normal leaves {:.6g} of overlap",
+                         depth, left);
+    if (is_poor) return "";
+  }
+  return fmt::format("states depth {:.9g}; a plane with the stated normal separates only after {:.9g}", depth,
+                     w.lo);
+}
+
 }  // namespace
 
 double certain_depth(const CheckInput& in, int a, int b, const referee::PairTruth& truth) {
@@ -127,7 +149,7 @@ void judge_normal_and_depth(const CheckInput& in, CheckOutput& out, const Stated
   out.error(regret, l, most_regret);
   if (regret > most_regret)
     out.fault(Fault::not_minimal, regret, l, q,
-              fmt::format("the stated normal needs {:.9g}; the least depth is {:.9g}", w.lo,
+              fmt::format("along the stated normal they are {:.9g} deep; the least depth is {:.9g}", w.lo,
                           (least.lo + least.hi) / 2),
               direction_certificate(in, c, truth));
   note_open_depth(in, out, c, w, least, most_regret);
@@ -136,11 +158,8 @@ void judge_normal_and_depth(const CheckInput& in, CheckOutput& out, const Stated
                excess = depth - (is_speculative(in, truth) ? w.hi : std::max(0.0, w.hi));
   out.error(std::max(infeasible, excess), l, tau);
   if (infeasible > tau)
-    out.fault(
-        Fault::infeasible, infeasible, l, q,
-        fmt::format("moving by the stated depth {:.9g} along the stated normal leaves {:.6g} of overlap",
-                    depth, infeasible),
-        truth.verdict_certificate);
+    if (const std::string words = words_on_infeasible(in, c, w, tau, regret > most_regret); !words.empty())
+      out.fault(Fault::infeasible, infeasible, l, q, words, truth.verdict_certificate);
   if (excess > tau)
     out.fault(Fault::depth_excess, excess, l, q,
               fmt::format("states depth {:.9g}; its own normal needs only {:.9g}", depth, w.hi),
