@@ -22,7 +22,7 @@ bool write_page(std::string_view kind, const std::string& json, const std::files
     auto data = stored;
     if (data.empty()) {
       data = out;
-      data.replace_extension(".json");
+      data += ".json";  // not in place of .html: causes.json beside causes.html is a record of its own
       write_file(data, json);
     }
     fmt::print(stderr,
@@ -44,7 +44,7 @@ void write_result(const std::string& name, const std::string& out, const std::st
     fmt::print("{}\n", json);
   else
     fmt::print("{}", text);
-  const bool page = write_page(name, json, file + ".html");
+  const bool page = write_page(name, json, file + ".html", file + ".json");
   fmt::print(as_json ? stderr : stdout, "{0}.json, {0}.csv{1}\n", file,
              page ? fmt::format(", page: {}.html", file) : "");
 }

@@ -18,8 +18,8 @@ void require_writable(const std::string& file);
 /// The path of the built page `kind`.html.
 std::filesystem::path built_page(std::string_view kind);
 
-/// Writes the page with `json` in it to `out`. If the page is not built, it writes the JSON to `out` with the
-/// extension .json (unless the file `stored` already holds it), reports this on stderr and returns false.
+/// Writes the page with `json` in it to `out`. If the page is not built, it writes the JSON to `out`.json,
+/// as in page.html.json (unless the file `stored` already holds it), reports this on stderr and returns false.
 bool write_page(std::string_view kind, const std::string& json, const std::filesystem::path& out,
                 const std::filesystem::path& stored = {});
 

@@ -20,7 +20,7 @@ using Json = nlohmann::json;
 // The data of the index. Without Node there are no pages, and it is in a JSON file.
 Json index_in(const fs::path& directory) {
   const fs::path page = directory / "index.html";
-  if (!fs::exists(page)) return touchstone::test::parsed<Json>(read_all(directory / "index.json"));
+  if (!fs::exists(page)) return touchstone::test::parsed<Json>(read_all(directory / "index.html.json"));
   return touchstone::test::parsed<Json>(
       touchstone::reports::data_of_page(read_all(page), page.string()).value());
 }

@@ -241,7 +241,7 @@ TEST_CASE("without built pages the data is kept and one line names what is missi
   CHECK(r.err.find("./touchstone pages --install") != std::string::npos);
   CHECK(std::count(r.err.begin(), r.err.end(), '\n') == 1);
   CHECK_FALSE(fs::exists(w.dir / "page.html"));
-  const Json j = touchstone::test::parsed<Json>(read_all(w.dir / "page.json"));
+  const Json j = touchstone::test::parsed<Json>(read_all(w.dir / "page.html.json"));
   CHECK(j["queries"].size() == 3);
   CHECK(j["queries"][2]["engines"]["core"]["right"] == true);
   const auto b = w.run("bin/touchstone view swap_places --broad --json -o broad.html");
@@ -250,6 +250,12 @@ TEST_CASE("without built pages the data is kept and one line names what is missi
   CHECK_FALSE(fs::exists(w.dir / "broad.html"));
   CHECK(touchstone::test::parsed<Json>(read_all(w.dir / "broad.json")) ==
         touchstone::test::parsed<Json>(b.out));  // nothing is rounded
+  // The record beside a page has the page's name.
+  CHECK(w.run("bin/touchstone fuzz --cases 64 --relations 0 --subject core --engines core,core-f32 --out run")
+            .code == 0);
+  CHECK(w.run("bin/touchstone causes run --page run/causes.html").code == 3);
+  CHECK(fs::exists(w.dir / "run/causes.html.json"));
+  CHECK(w.run("bin/touchstone causes run").code == 0);
   const auto s = w.run("bin/touchstone stability --quick --ladder angle --engines core --out s");
   CHECK(s.code == 0);
   CHECK(fs::exists(w.dir / "s/stability.json"));
