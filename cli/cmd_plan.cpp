@@ -84,18 +84,24 @@ std::vector<fuzz::PlanTerms> terms_of_libraries(const routes::Needs& n) {
   std::vector<fuzz::PlanTerms> all;
   for (const routes::Library& l : routes::libraries())
     if (l.terms) all.push_back({std::string(l.name), l.terms(n)});
-  std::ranges::sort(all, {}, &fuzz::PlanTerms::library);
   return all;
 }
 
-std::string command_of(const PlanArguments& o) {
-  return o.out.empty()
-             ? fmt::format("{} plan {}", program_name(), shell_word(o.scene))
-             : fmt::format("{} plan {} --use {}", program_name(), shell_word(o.scene), shell_word(o.out));
+// What was given, without the files to write.
+std::string command_of(const CLI::App& given) {
+  std::string s = program_name() + " plan";
+  for (const CLI::Option* o : given.get_options([](const CLI::Option* x) { return x->count() > 0; })) {
+    const std::string name = o->get_name();
+    if (name == "--out" || name == "--page" || name == "--json") continue;
+    if (!o->get_positional()) s += " " + name;
+    if (o->get_items_expected_max() == 0) continue;  // a flag
+    for (const std::string& value : o->results()) s += " " + shell_word(value);
+  }
+  return s;
 }
 
-int run(PlanArguments o, bool error_given) {
-  if (error_given && !(o.plan.error > 0 && std::isfinite(o.plan.error)))
+int run(PlanArguments o, const CLI::App& given) {
+  if (given.count("--error") > 0 && !(o.plan.error > 0 && std::isfinite(o.plan.error)))
     throw InputError("--error", fmt::format("{} is not a positive length", o.plan.error));
   if (!(o.plan.margin >= 0 && std::isfinite(o.plan.margin)))
     throw InputError("--margin", fmt::format("{} is not a length", o.plan.margin));
@@ -116,7 +122,8 @@ int run(PlanArguments o, bool error_given) {
     fmt::print(o.json ? stderr : stdout, "{}: run it with StepWorld, or measure it again with --use\n",
                o.out);
   if (!o.page.empty()) {
-    if (!write_page("plan", json_text(reports::plan_page(plan, command_of(o))), o.page)) return exit_failed;
+    if (!write_page("plan", json_text(reports::plan_page(plan, command_of(given))), o.page))
+      return exit_failed;
     fmt::print(stderr, "{}: open it in a browser\n", printable(o.page));
   }
   for (const fuzz::PlanRow& r : plan.rows)
@@ -160,7 +167,7 @@ Run declare_plan(CLI::App& app) {
   app.add_option("--seed", o->plan.seed, "seed of the samples")->capture_default_str();
   add_import_options(app, o->import);
   app.add_flag("--json", o->json, "the whole result as one JSON document on stdout");
-  return [o, error] { return run(*o, error->count() > 0); };
+  return [o, &app] { return run(*o, app); };
 }
 
 }  // namespace touchstone::cli

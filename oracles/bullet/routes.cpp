@@ -51,8 +51,7 @@ std::string precision(const Needs& n) {
   if (n.error < n.float_rounding)
     return fmt::format(
         "Precision: BT_USE_DOUBLE_PRECISION; floats round this scene's coordinates by up to {:.1g}, more "
-        "than "
-        "the error.",
+        "than the error.",
         n.float_rounding);
   return fmt::format(
       "Precision: floats round this scene's coordinates by up to {:.1g}, less than the error; that bounds no "

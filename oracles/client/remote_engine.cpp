@@ -34,8 +34,10 @@ struct Cursor {
   bool operator==(const Cursor&) const = default;
 };
 
-// Tells whether a file was written again. Zeros for a command behind a pipe.
-std::pair<std::filesystem::file_time_type, std::uintmax_t> stamp_of(const std::filesystem::path& file) {
+// Tells whether a file was written again. The same for everything that is no file, as a command behind a
+// pipe.
+using FileStamp = std::pair<std::filesystem::file_time_type, std::uintmax_t>;
+FileStamp stamp_of(const std::filesystem::path& file) {
   std::error_code none;
   return {std::filesystem::last_write_time(file, none), std::filesystem::file_size(file, none)};
 }
@@ -339,7 +341,7 @@ class RemoteEngine::Impl {
   }
 
   RemoteSpec spec_;
-  const decltype(stamp_of({})) stamp_;  // of the plug-in, when its first worker was started
+  const FileStamp stamp_;  // of the plug-in, when its first worker was started
   Watchdog watchdog_;
   std::shared_ptr<const WorkerSession> fork_server_;
   std::optional<WorkerSession> session_;  // ends before its fork server

@@ -68,8 +68,7 @@ std::vector<std::string> terms(const Needs& n) {
     all.emplace_back("Gaps: distance() with distance_tolerance 1e-12, not its default, 1e-6.");
     all.emplace_back(
         "Depths, where that returns -1: distance() with enable_signed_distance and distance_tolerance 1e-7; "
-        "with "
-        "less it aborts for many pairs. A depth of collide() is only an upper bound.");
+        "with less it aborts for many pairs. A depth of collide() is only an upper bound.");
     if (n.curved && n.error < taken_for_gap)
       all.push_back(
           fmt::format("Curved shapes: depths of up to {} (of bodies of unit size) may be taken for gaps: "

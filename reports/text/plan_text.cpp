@@ -19,8 +19,8 @@ std::string percent(double share) { return fmt::format("{:.0f} %", 100 * share);
 
 std::string heading(const Plan& p) {
   return fmt::format("Plan for {}: {} bodies, {} steps, within {} (double proves {}).",
-                     p.scene.empty() ? "a scene" : p.scene, grouped(p.bodies), p.steps, small(p.error),
-                     small(p.least_error));
+                     p.scene.empty() ? "a scene" : printable(p.scene), grouped(p.bodies), p.steps,
+                     small(p.error), small(p.least_error));
 }
 
 std::string asked(const Plan& p) {
@@ -183,8 +183,8 @@ std::string pair_table(const Plan& p) {
   if (p.pairs.size() > most) text += fmt::format("  and {} cheaper ones\n", p.pairs.size() - most);
   return text +
          "  time of a pair; double: doubles backed by extended precision, nothing else\n  tried; balls: "
-         "share "
-         "decided by bounding balls; cheap: share of the rest that\n  float or double alone answers within "
+         "share decided by bounding balls; cheap: share of the rest that\n  float or double alone answers "
+         "within "
          "the error\n";
 }
 

@@ -149,6 +149,14 @@ TEST_CASE("pages load, show the numbers of their JSON, draw, move and link in a 
              "/lib/libtouchstone_mutants.so:stale_after_move --level boxes --without no_boxes --limit 2000 "
              "-o refuted.json --page refuted.html")
             .code == 1);
+  CHECK(w.touchstone(
+             "plan 'ball_into_the_ground' --steps 9 --error 1e-3 --verdict-only --rounds 1 --judged 8 -o "
+             "again.json --page again.html")
+            .code == 0);
+  CHECK(
+      read_all(w.dir / "again.html")
+          .find("plan ball_into_the_ground --error 1e-3 --verdict-only --steps 9 --rounds 1 --judged 8\"") !=
+      std::string::npos);
   REQUIRE(w.touchstone("open .").code == 0);
   const std::string pictures = pictures_directory();
   const auto node =

@@ -98,18 +98,15 @@ void note_open_depth(const CheckInput& in, CheckOutput& out, const StatedContact
 std::string words_on_infeasible(const CheckInput& in, const StatedContact& c, const referee::Bracket& w,
                                 double tau, bool is_poor) {
   const double depth = *c.depth;
-  // For others, w is how far B must move along the normal, whatever plane separates them.
   const auto is_plain = [&](int body) { return is_convex(kind_of(*in.truth.placed(in.frame, body).shape)); };
-  if (!is_plain(c.a) || !is_plain(c.b))
+  // Unless both are convex, w is how far B must move along the normal, whatever plane separates them.
+  double left = w.lo - depth;
+  if (is_plain(c.a) && is_plain(c.b))
+    left = depth >= 0 ? -in.truth.pair_after(in.frame, c.a, c.b, depth * *c.normal).gap.hi : 0;
+  if (left > tau)
     return fmt::format("moving by the stated depth {:.9g} along the stated normal leaves {:.6g} of overlap",
-                       depth, w.lo - depth);
-  if (depth >= 0) {
-    const double left = -in.truth.pair_after(in.frame, c.a, c.b, depth * *c.normal).gap.hi;
-    if (left > tau)
-      return fmt::format("moving by the stated depth {:.9g} along the stated normal leaves {:.6g} of overlap",
-                         depth, left);
-    if (is_poor) return "";
-  }
+                       depth, left);
+  if (depth >= 0 && is_poor) return "";
   return fmt::format("states depth {:.9g}; a plane with the stated normal separates only after {:.9g}", depth,
                      w.lo);
 }

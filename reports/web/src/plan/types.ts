@@ -42,12 +42,9 @@ export interface SweptJson {
 }
 export interface PlanJson {
   machine: { processor: string; cores: number; load: number; system: string; compiler: string; date: string };
-  scene: string;
   seed: number;
   steps: number;
   rounds: number;
-  run: { error: number; broad_phase: string };
-  phases: { name: string; ns_step: unknown }[];
   pairs: PairJson[];
   shapes: ShapeJson[];
   swept: SweptJson[];
