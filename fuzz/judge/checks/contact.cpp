@@ -1,10 +1,10 @@
 // Contact: the verdict, then normal and depth by feasibility and regret (docs/truth.md §3).
 //
-// With w(n) = h_A(n) + h_B(-n), moving B by w(n) along n separates the bodies by a plane with the normal n,
-// and moving by less does not. So a depth d with normal n is infeasible by w(n) - d, excessive by d - w(n)
-// (pushing by d leaves a gap, §5), and the direction is worse than the best by w(n) - d*. Any of several best
-// normals passes; nothing else does. For bodies that are apart by no more than τ, d* is 0. If n is not the
-// best, a plane with another normal may separate the bodies sooner: if so by d, the normal alone is at fault.
+// With w(n) = h_A(n) + h_B(-n), moving B by w(n) along n separates the bodies by a plane with the normal n.
+// So a depth d is infeasible by what is left of the overlap after moving by d along n (at most w(n) - d,
+// because a plane with another normal may separate the bodies sooner), excessive by d - w(n) (pushing by d
+// leaves a gap, §5), and the direction is worse than the best by w(n) - d*. Any of several best normals
+// passes; nothing else does. For bodies that are apart by no more than τ, d* is 0.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -93,22 +93,21 @@ void note_open_depth(const CheckInput& in, CheckOutput& out, const StatedContact
   if (!is_least || !is_depth) out.not_judged("a solid's depth within its bracket", true);
 }
 
-// Of a depth that is less than the plane with the contact's normal needs. Empty: B has then left A all the
-// same, and its normal is at fault already.
-std::string words_on_infeasible(const CheckInput& in, const StatedContact& c, const referee::Bracket& w,
-                                double tau, bool is_poor) {
-  const double depth = *c.depth;
+// By how much a stated depth falls short. Of convex bodies that is how deep they still overlap after the
+// motion, whatever plane separates them; of others, how much farther B must move along the normal.
+double shortfall(const CheckInput& in, const StatedContact& c, const referee::Bracket& w, double tau) {
   const auto is_plain = [&](int body) { return is_convex(kind_of(*in.truth.placed(in.frame, body).shape)); };
-  // Unless both are convex, w is how far B must move along the normal, whatever plane separates them.
-  double left = w.lo - depth;
-  if (is_plain(c.a) && is_plain(c.b))
-    left = depth >= 0 ? -in.truth.pair_after(in.frame, c.a, c.b, depth * *c.normal).gap.hi : 0;
-  if (left > tau)
-    return fmt::format("moving by the stated depth {:.9g} along the stated normal leaves {:.6g} of overlap",
-                       depth, left);
-  if (depth >= 0 && is_poor) return "";
-  return fmt::format("states depth {:.9g}; a plane with the stated normal separates only after {:.9g}", depth,
-                     w.lo);
+  const double rest = w.lo - *c.depth;
+  if (rest <= tau || *c.depth < 0 || !is_plain(c.a) || !is_plain(c.b)) return rest;
+  return -in.truth.pair_after(in.frame, c.a, c.b, *c.depth * *c.normal).gap.hi;
+}
+
+std::string words_on_infeasible(double depth, double left, const referee::Bracket& w) {
+  if (depth < 0)
+    return fmt::format("states depth {:.9g}; a plane with the stated normal separates only after {:.9g}",
+                       depth, w.lo);
+  return fmt::format("moving by the stated depth {:.9g} along the stated normal leaves {:.6g} of overlap",
+                     depth, left);
 }
 
 }  // namespace
@@ -151,12 +150,12 @@ void judge_normal_and_depth(const CheckInput& in, CheckOutput& out, const Stated
               direction_certificate(in, c, truth));
   note_open_depth(in, out, c, w, least, most_regret);
   if (!c.depth) return;
-  const double depth = *c.depth, infeasible = w.lo - depth,
+  const double depth = *c.depth, infeasible = shortfall(in, c, w, tau),
                excess = depth - (is_speculative(in, truth) ? w.hi : std::max(0.0, w.hi));
   out.error(std::max(infeasible, excess), l, tau);
   if (infeasible > tau)
-    if (const std::string words = words_on_infeasible(in, c, w, tau, regret > most_regret); !words.empty())
-      out.fault(Fault::infeasible, infeasible, l, q, words, truth.verdict_certificate);
+    out.fault(Fault::infeasible, infeasible, l, q, words_on_infeasible(depth, infeasible, w),
+              truth.verdict_certificate);
   if (excess > tau)
     out.fault(Fault::depth_excess, excess, l, q,
               fmt::format("states depth {:.9g}; its own normal needs only {:.9g}", depth, w.hi),
