@@ -64,7 +64,7 @@ export function fault(c, question, answer, given) {  // null if right
   const near = offset > 0 && low > 0
   let least = near ? [-high, -low] : [Math.max(0, -high), Math.max(0, -low)], w
   if (n && (w = width(c, n)) - least[1] > tau + limits.bias * Math.max(0, least[0])) return 'not the least depth'
-  if (n) least = [w, near ? w : Math.max(0, w)]
+  if (n) least = [w - least[1] <= tau ? least[0] : w, near ? w : Math.max(0, w)]
   return depth === undefined || least[0] - tau <= depth && depth <= least[1] + tau ? ok : 'depth off'
 }
 

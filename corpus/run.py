@@ -67,7 +67,7 @@ def fault(case, question, answer, limits=None):  # None if right
     if n:
         w = width(case, n)
         if w - least[1] > tau + limits["bias"] * max(0, least[0]): return "not the least depth"
-        least = w, w if near else max(0, w)
+        least = least[0] if w - least[1] <= tau else w, w if near else max(0, w)
     return ok if depth is None or least[0] - tau <= float(depth) <= least[1] + tau else "depth off"
 
 def run(engine, directory=HERE, limits=None):  # yields case, question, result

@@ -1,10 +1,11 @@
 // Contact: the verdict, then normal and depth by feasibility and regret (docs/truth.md §3).
 //
 // With w(n) = h_A(n) + h_B(-n), moving B by w(n) along n separates the bodies by a plane with the normal n.
-// So a depth d is infeasible by what is left of the overlap after moving by d along n (at most w(n) - d,
-// because a plane with another normal may separate the bodies sooner), excessive by d - w(n) (pushing by d
-// leaves a gap, §5), and the direction is worse than the best by w(n) - d*. Any of several best normals
-// passes; nothing else does. For bodies that are apart by no more than τ, d* is 0.
+// The direction is worse than the best by w(n) - d*. Any of several best normals passes; nothing else does. A
+// depth d is excessive by d - w(n) (pushing by d leaves a gap, §5). Normal and depth are each right within τ,
+// so beside a normal that is, d is infeasible by d* - d. Beside a poor one it is so by what is left of the
+// overlap after moving by d along n: at most w(n) - d, because a plane with another normal may separate the
+// bodies sooner. For bodies that are apart by no more than τ, d* is 0.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -93,21 +94,30 @@ void note_open_depth(const CheckInput& in, CheckOutput& out, const StatedContact
   if (!is_least || !is_depth) out.not_judged("a solid's depth within its bracket", true);
 }
 
-// By how much a stated depth falls short. Of convex bodies that is how deep they still overlap after the
-// motion, whatever plane separates them; of others, how much farther B must move along the normal.
-double shortfall(const CheckInput& in, const StatedContact& c, const referee::Bracket& w, double tau) {
+struct Shortfall {
+  double value = 0;
+  bool is_of_plane = false;  // measured by the plane with the stated normal, whatever other plane separates
+};
+
+// By how much a stated depth falls short: beside a normal within τ of the best, of the least depth; beside a
+// poor one, what is left of the overlap after the motion; else of what planes with that normal need.
+Shortfall shortfall(const CheckInput& in, const StatedContact& c, const referee::Bracket& w,
+                    const referee::Bracket& least, double tau, bool is_poor) {
   const auto is_plain = [&](int body) { return is_convex(kind_of(*in.truth.placed(in.frame, body).shape)); };
-  const double rest = w.lo - *c.depth;
-  if (rest <= tau || *c.depth < 0 || !is_plain(c.a) || !is_plain(c.b)) return rest;
-  return -in.truth.pair_after(in.frame, c.a, c.b, *c.depth * *c.normal).gap.hi;
+  const double depth = *c.depth, rest = w.lo - depth;
+  if (!is_plain(c.a) || !is_plain(c.b)) return {rest, depth < 0};
+  if (rest > tau && w.lo - least.hi <= tau) return {least.lo - depth, depth < 0};
+  if (rest > tau && is_poor && depth >= 0)
+    return {-in.truth.pair_after(in.frame, c.a, c.b, depth * *c.normal).gap.hi, false};
+  return {rest, true};
 }
 
-std::string words_on_infeasible(double depth, double left, const referee::Bracket& w) {
-  if (depth < 0)
+std::string words_on_shortfall(double depth, const Shortfall& s, const referee::Bracket& w) {
+  if (s.is_of_plane)
     return fmt::format("states depth {:.9g}; a plane with the stated normal separates only after {:.9g}",
                        depth, w.lo);
   return fmt::format("moving by the stated depth {:.9g} along the stated normal leaves {:.6g} of overlap",
-                     depth, left);
+                     depth, s.value);
 }
 
 }  // namespace
@@ -150,11 +160,11 @@ void judge_normal_and_depth(const CheckInput& in, CheckOutput& out, const Stated
               direction_certificate(in, c, truth));
   note_open_depth(in, out, c, w, least, most_regret);
   if (!c.depth) return;
-  const double depth = *c.depth, infeasible = shortfall(in, c, w, tau),
-               excess = depth - (is_speculative(in, truth) ? w.hi : std::max(0.0, w.hi));
-  out.error(std::max(infeasible, excess), l, tau);
-  if (infeasible > tau)
-    out.fault(Fault::infeasible, infeasible, l, q, words_on_infeasible(depth, infeasible, w),
+  const Shortfall infeasible = shortfall(in, c, w, least, tau, regret > most_regret);
+  const double depth = *c.depth, excess = depth - (is_speculative(in, truth) ? w.hi : std::max(0.0, w.hi));
+  out.error(std::max(infeasible.value, excess), l, tau);
+  if (infeasible.value > tau)
+    out.fault(Fault::infeasible, infeasible.value, l, q, words_on_shortfall(depth, infeasible, w),
               truth.verdict_certificate);
   if (excess > tau)
     out.fault(Fault::depth_excess, excess, l, q,
