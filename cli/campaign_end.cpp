@@ -103,13 +103,9 @@ int campaign_verdict(const CampaignEnd& end, bool json) {
   if (const auto open = r.too_open(end.subject); !open.empty())
     return say(exit_failed, fmt::format("0 wrong, but too many answers are open: {}", open.front()));
   const auto exempt = r.by_definition_of(end.subject);
-  return say(
-      exit_clean,
-      fmt::format("0 wrong in {} answers{}", reports::grouped(answers),
-                  exempt > 0
-                      ? fmt::format(" ({} are depths of a surface or within a solid's bracket: not judged)",
-                                    reports::grouped(exempt))
-                      : ""));
+  return say(exit_clean,
+             fmt::format("0 wrong in {} answers{}", reports::grouped(answers),
+                         exempt > 0 ? fmt::format(" ({} not judged)", reports::grouped(exempt)) : ""));
 }
 
 }  // namespace touchstone::cli
