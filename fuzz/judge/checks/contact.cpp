@@ -94,6 +94,8 @@ void note_open_depth(const CheckInput& in, CheckOutput& out, const StatedContact
   if (!is_least || !is_depth) out.not_judged("a solid's depth within its bracket", true);
 }
 
+constexpr double prints_as_one = 1e-8;  // a length nearer to 1 than this does not show it in nine digits
+
 struct Shortfall {
   double value = 0;
   bool is_of_plane = false;  // measured by the plane with the stated normal, whatever other plane separates
@@ -134,7 +136,9 @@ bool judge_validity(const CheckInput& in, CheckOutput& out, const StatedContact&
       std::abs(length - 1) <= in.card.tau_factor * pair_roundoff(in.card, in.truth.scene(), c.a, c.b);
   if (!unit)
     out.fault_always(Fault::normal_not_unit, std::abs(length - 1), q,
-                     fmt::format("the normal has length {:.9g}", length));
+                     std::abs(length - 1) < prints_as_one
+                         ? fmt::format("the normal's length is {:.2g} off 1", std::abs(length - 1))
+                         : fmt::format("the normal has length {:.9g}", length));
   const bool number = !c.depth || std::isfinite(*c.depth);
   if (!number) out.fault_always(Fault::no_number, 0, q, fmt::format("the depth is {}", *c.depth));
   return unit && number;

@@ -18,9 +18,17 @@ function make_shape(s) {
     case "cylinder": return new rapier.Cylinder(s.half_height, s.radius);
     case "cone": return new rapier.Cone(s.half_height, s.radius);
     case "half_space": return new rapier.HalfSpace(xyz(unit(s.normal)));
-    case "hull": return new rapier.ConvexPolyhedron(new Float32Array(s.vertices.flat()));
+    case "hull": return make_hull(s);
     default: throw new kit.Unsupported(`the adapter does not support Rapier's ${s.type}`);
   }
+}
+// Of some points Rapier computes no hull: of points in a plane, for instance. Its convexHull is documented to return
+// null then; a ConvexPolyhedron made of them fails at its first use.
+function make_hull(s) {
+  const hull = new rapier.ConvexPolyhedron(new Float32Array(s.vertices.flat())), made = hull.intoRaw();
+  if (!made) throw new kit.Unsupported("Rapier computes no hull of these points");
+  made.free();
+  return hull;
 }
 const unit = (n) => n.map((x) => x / Math.hypot(...n));
 const unlimited_reach = 1e15; // search distance for closest points
