@@ -44,7 +44,9 @@ class Engine {
         "mj_collision, options as shipped: margin 0, MPR",
         double_roundoff,
         kit::oracle_tau_factor,
-        "XML reference: option mpr_tolerance 1e-6, for pairs of meshes, cylinders and ellipsoids"};
+        "XML reference: option mpr_tolerance 1e-6, for pairs of meshes, cylinders and ellipsoids; "
+        "mjmodel.h: vertices of meshes are float"};
+    card.unit_roundoffs = {{"hull", float_roundoff}};
     card.shapes = {"sphere", "box", "capsule", "cylinder", "ellipsoid", "hull", "half_space"};
     return {card};
   }

@@ -139,9 +139,10 @@ const engine = {
     name: how ? `mujoco-${how}` : "mujoco", library: "MuJoCo, WASM", version: kit.version(modules, "@mujoco/mujoco"),
     settings: { "": "as shipped: native convex collisions, several contacts", single: "multiccd disabled",
       libccd: "nativeccd disabled: libccd's MPR" }[how] + "; mj_collision, mj_geomDistance; margin 0",
-    unit_roundoff: 2 ** -53,
+    unit_roundoff: 2 ** -53, unit_roundoffs: { hull: kit.float_roundoff },
     source: "XMLreference, option: ccd_tolerance 1e-6; Computation, Convex collisions: in units of distance. Distances of "
-      + "the libccd pipeline, and points found after rotating geoms, are disclaimed there.",
+      + "the libccd pipeline, and points found after rotating geoms, are disclaimed there. "
+      + "mjmodel.h: vertices of meshes are float",
   },
   load(scene) {
     compile(scene);
