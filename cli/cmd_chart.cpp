@@ -177,7 +177,8 @@ Run declare_chart(CLI::App& app) {
   app.add_option("--measure", o->measure, "ns for which each pair query is repeated to time it")
       ->check(CLI::Range(0, 100'000'000))
       ->capture_default_str();
-  app.add_option("--out", o->out, "directory for chart.json, chart.csv, chart.html")->capture_default_str();
+  app.add_option("-o,--out", o->out, "directory for chart.json, chart.csv, chart.html")
+      ->capture_default_str();
   add_case_seconds(app, o->limits);
   app.add_option("--from", o->from, "a chart.json to print instead of measuring one");
   app.add_option("--update", o->document,

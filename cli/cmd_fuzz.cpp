@@ -144,7 +144,7 @@ Run declare_fuzz(CLI::App& app) {
                  "also ask every N-th case in other forms (swapped, scaled, moved, ...); 0: never")
       ->check(CLI::Range(0, 1'000'000'000))
       ->capture_default_str();
-  app.add_option("--out", o->out, "output directory; an unfinished campaign in it is resumed");
+  app.add_option("-o,--out", o->out, "output directory; an unfinished campaign in it is resumed");
   app.add_flag("--fresh", o->config.fresh,
                "first move a campaign that is already in --out to the first free name of OUT.1, OUT.2, …");
   app.add_flag("--keep-answers", o->config.keep_answers,

@@ -178,7 +178,7 @@ Run declare_stability(CLI::App& app) {
   add_engine_choice(app, o->choice);
   app.add_option("--seed", o->seed, "same seed, same result")->capture_default_str();
   app.add_option(
-         "--out", o->out,
+         "-o,--out", o->out,
          "directory for stability.json, stability.csv, stability.html, or motions.json and motions.csv")
       ->capture_default_str();
   add_case_seconds(app, o->limits);
