@@ -258,6 +258,33 @@ void Assembly::share_explained(std::vector<Group>& groups) const {
     }
 }
 
+namespace {
+
+// The kind of shape that a change replaces, as "box_as_hull" does; empty for all other changes.
+std::string_view replaced_kind(std::string_view intervention) {
+  const std::size_t at = intervention.find("_as_");
+  return at == std::string_view::npos || at == 1 ? ""
+                                                 : intervention.substr(0, at);  // 1: a_as_cube, b_as_cube
+}
+
+// Whether a name of a pair, "box-half_space", has this kind.
+bool names_kind(std::string_view pair, std::string_view kind) {
+  return ("-" + std::string(pair) + "-").find("-" + std::string(kind) + "-") != std::string::npos;
+}
+
+// A reduced case may have kinds of shapes that no pair of the cause has: no title speaks of these.
+Responses without_absent_kinds(Responses r, const std::vector<std::string>& pairs) {
+  for (Responded& x : r.responses) {
+    const std::string_view kind = replaced_kind(x.intervention);
+    if (kind.empty() || x.response != Response::gone) continue;
+    if (std::ranges::none_of(pairs, [&](const std::string& p) { return names_kind(p, kind); }))
+      x.response = Response::differs;
+  }
+  return r;
+}
+
+}  // namespace
+
 void Assembly::add_name(Cause& c, const Group& g, const Findings& findings,
                         const std::vector<std::string>& routes) const {
   const Representative& led = leader(g);
@@ -273,7 +300,7 @@ void Assembly::add_name(Cause& c, const Group& g, const Findings& findings,
        s.stage == FaultStage::failure ? led.finding->words : "", routes, c.shapes, questions.size() == 1});
   const Responses of_all = common_response(g);
   c.response = of_all.responses;
-  const std::string reason = reason_of(g, seen_in_leader(g, of_all));
+  const std::string reason = reason_of(g, without_absent_kinds(seen_in_leader(g, of_all), c.shapes));
   if (reason == not_shown)
     c.title += ": not shown when its case is asked alone";
   else if (!reason.empty())
