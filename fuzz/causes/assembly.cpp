@@ -11,6 +11,7 @@
 #include "core/base/exact_text.h"
 #include "core/base/hash.h"
 #include "fuzz/causes/classes.h"
+#include "fuzz/causes/intervention.h"
 #include "fuzz/causes/name.h"
 #include "reports/record/result.h"
 #include "scenarios/codec/case_codec.h"
@@ -19,6 +20,20 @@ namespace touchstone::fuzz {
 namespace {
 
 using Texts = std::set<std::string>;
+
+// A reduced case may have kinds of shapes that no pair of the cause has: no title speaks of these.
+Responses without_absent_kinds(Responses r, const std::vector<std::string>& pairs) {
+  for (const Intervention& i : interventions) {
+    const auto may_have_it = [&](const std::string& pair) {
+      const auto kinds = kinds_of_pair(pair);
+      return !kinds || kinds->first == *i.replaces || kinds->second == *i.replaces;
+    };
+    if (!i.replaces || std::ranges::any_of(pairs, may_have_it)) continue;
+    for (Responded& x : r.responses)
+      if (x.intervention == i.name && x.response == Response::gone) x.response = Response::differs;
+  }
+  return r;
+}
 
 std::vector<std::string> listed(const Texts& texts) { return {texts.begin(), texts.end()}; }
 
@@ -257,33 +272,6 @@ void Assembly::share_explained(std::vector<Group>& groups) const {
       owner->explained.push_back(f);  // every class has a representative
     }
 }
-
-namespace {
-
-// The kind of shape that a change replaces, as "box_as_hull" does; empty for all other changes.
-std::string_view replaced_kind(std::string_view intervention) {
-  const std::size_t at = intervention.find("_as_");
-  return at == std::string_view::npos || at == 1 ? ""
-                                                 : intervention.substr(0, at);  // 1: a_as_cube, b_as_cube
-}
-
-// Whether a name of a pair, "box-half_space", has this kind.
-bool names_kind(std::string_view pair, std::string_view kind) {
-  return ("-" + std::string(pair) + "-").find("-" + std::string(kind) + "-") != std::string::npos;
-}
-
-// A reduced case may have kinds of shapes that no pair of the cause has: no title speaks of these.
-Responses without_absent_kinds(Responses r, const std::vector<std::string>& pairs) {
-  for (Responded& x : r.responses) {
-    const std::string_view kind = replaced_kind(x.intervention);
-    if (kind.empty() || x.response != Response::gone) continue;
-    if (std::ranges::none_of(pairs, [&](const std::string& p) { return names_kind(p, kind); }))
-      x.response = Response::differs;
-  }
-  return r;
-}
-
-}  // namespace
 
 void Assembly::add_name(Cause& c, const Group& g, const Findings& findings,
                         const std::vector<std::string>& routes) const {

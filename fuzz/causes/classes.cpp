@@ -72,15 +72,19 @@ EngineKnowledge no_knowledge() {
   return k;
 }
 
+std::optional<std::pair<ShapeKind, ShapeKind>> kinds_of_pair(std::string_view shapes) {
+  const auto dash = shapes.find('-');
+  if (dash == std::string_view::npos) return std::nullopt;
+  const auto a = kind_named(shapes.substr(0, dash)), b = kind_named(shapes.substr(dash + 1));
+  return a && b ? std::optional(std::pair(*a, *b)) : std::nullopt;
+}
+
 std::string route_of(const std::string& engine, const std::string& shapes, Question question,
                      const EngineKnowledge& knowledge) {
   if (shapes == any_shapes) return shapes;
-  const auto dash = shapes.find('-');
-  if (dash == std::string::npos) return std::string(scene_route);
-  const auto a = kind_named(std::string_view(shapes).substr(0, dash));
-  const auto b = kind_named(std::string_view(shapes).substr(dash + 1));
-  if (!a || !b) return shapes;
-  return knowledge.route_of(engine, question, *a, *b);
+  if (shapes.find('-') == std::string::npos) return std::string(scene_route);
+  const auto kinds = kinds_of_pair(shapes);
+  return kinds ? knowledge.route_of(engine, question, kinds->first, kinds->second) : shapes;
 }
 
 std::vector<FindingClass> classes_of(const CampaignResult& result, const EngineKnowledge& knowledge,

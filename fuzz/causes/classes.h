@@ -4,8 +4,11 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "fuzz/causes/symptom.h"
@@ -43,6 +46,10 @@ struct EngineKnowledge {
 
 /// For engines of which nothing is known.
 EngineKnowledge no_knowledge();
+
+/// The kinds of a pair's shapes as a finding's key names them, "box-sphere". None if it names no pair:
+/// "scene".
+std::optional<std::pair<ShapeKind, ShapeKind>> kinds_of_pair(std::string_view shapes);
 
 /// The route of a finding about these shapes, as in its key; `question` is folded (symptom.h).
 std::string route_of(const std::string& engine, const std::string& shapes, Question question,

@@ -712,6 +712,27 @@ TEST_CASE("engines of one path are told apart by each other's cases", "[causes]"
         1);
 }
 
+TEST_CASE("a title names no kind of shape that none of the cause's pairs has", "[causes]") {
+  const auto title = [](const std::string& pair) {
+    TwoExamined two(finding("x", "contact", "infeasible", pair, 9),
+                    finding("y", "contact", "infeasible", pair, 5));
+    two.response(0, "box_as_hull").response = fuzz::Response::gone;
+    fuzz::Parts p;
+    p.classes = two.classes;
+    p.all = two.all;
+    const fuzz::Assembly assembly(two.result, p, two.knowledge);
+    fuzz::Group first;
+    first.members = {0};
+    return assembly.cause_of(assembly.identified({first}).at(0)).title;
+  };
+  const auto speaks_of_boxes = [&](const std::string& pair) {
+    return title(pair).find("a routine for boxes") != std::string::npos;
+  };
+  CHECK(speaks_of_boxes("box-cone"));
+  CHECK(speaks_of_boxes("scene"));  // of no known kinds
+  CHECK_FALSE(speaks_of_boxes("cone-cylinder"));
+}
+
 TEST_CASE("a cause is shown by a case with the gravest of its faults, which its title names", "[causes]") {
   TwoExamined two(finding("x", "contact", "not_minimal", "box-box", 9),
                   finding("x", "contact", "infeasible", "mesh-sphere", 1));

@@ -98,14 +98,21 @@ TEST_CASE("a depth along a poor normal is infeasible only if the bodies still ov
 }
 
 TEST_CASE("a normal and a depth that are each within the tolerance are right together", "[judge]") {
-  // The depth is 0.04 less than the least, 0.12 less than planes with this normal need; 0.05 of overlap is
-  // left.
+  // The depth is 0.04 less than the least, and 0.12 less than planes with this normal need.
   const double cosine = 1 - 0.08 / 1.5;
   Observation o = contact({cosine, std::sqrt(1 - cosine * cosine), 0}, 0.46);
   o.claimed_tolerance = 0.1;
   CHECK(judge_one(spheres(1.5, Question::contact), o).right());
   o.claimed_tolerance = 0.03;
   CHECK(has(judge_one(spheres(1.5, Question::contact), o), Fault::infeasible));
+}
+
+TEST_CASE("a normal whose length prints like 1 is told by its error", "[judge]") {
+  const Judgement near = judge_one(spheres(1.5, Question::contact), contact({1 - 0x1p-36, 0, 0}, 0.5));
+  REQUIRE(has(near, Fault::normal_not_unit));
+  CHECK(near.faults.at(0).words == "the normal's length is 1.5e-11 off 1");
+  CHECK(judge_one(spheres(1.5, Question::contact), contact({0.5, 0, 0}, 0.5)).faults.at(0).words ==
+        "the normal has length 0.5");
 }
 
 TEST_CASE("a wrong distance that prints like the true one is told by its error", "[judge]") {

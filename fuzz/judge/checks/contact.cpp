@@ -94,7 +94,12 @@ void note_open_depth(const CheckInput& in, CheckOutput& out, const StatedContact
   if (!is_least || !is_depth) out.not_judged("a solid's depth within its bracket", true);
 }
 
-constexpr double prints_as_one = 1e-8;  // a length nearer to 1 than this does not show it in nine digits
+// A length that prints like 1 is told by its error.
+std::string words_on_length(double length) {
+  const std::string digits = fmt::format("{:.9g}", length);
+  return digits == "1" ? fmt::format("the normal's length is {:.2g} off 1", std::abs(length - 1))
+                       : "the normal has length " + digits;
+}
 
 struct Shortfall {
   double value = 0;
@@ -105,11 +110,11 @@ struct Shortfall {
 // poor one, what is left of the overlap after the motion; else of what planes with that normal need.
 Shortfall shortfall(const CheckInput& in, const StatedContact& c, const referee::Bracket& w,
                     const referee::Bracket& least, double tau, bool is_poor) {
-  const auto is_plain = [&](int body) { return is_convex(kind_of(*in.truth.placed(in.frame, body).shape)); };
   const double depth = *c.depth, rest = w.lo - depth;
-  if (!is_plain(c.a) || !is_plain(c.b)) return {rest, depth < 0};
-  if (rest > tau && w.lo - least.hi <= tau) return {least.lo - depth, depth < 0};
-  if (rest > tau && is_poor && depth >= 0)
+  const auto is_plain = [&](int body) { return is_convex(kind_of(*in.truth.placed(in.frame, body).shape)); };
+  if (rest <= tau || !is_plain(c.a) || !is_plain(c.b)) return {rest, depth < 0};
+  if (w.lo - least.hi <= tau) return {least.lo - depth, depth < 0};
+  if (is_poor && depth >= 0)
     return {-in.truth.pair_after(in.frame, c.a, c.b, depth * *c.normal).gap.hi, false};
   return {rest, true};
 }
@@ -134,11 +139,7 @@ bool judge_validity(const CheckInput& in, CheckOutput& out, const StatedContact&
   const double length = c.normal ? c.normal->stableNorm() : 1;
   const bool unit =
       std::abs(length - 1) <= in.card.tau_factor * pair_roundoff(in.card, in.truth.scene(), c.a, c.b);
-  if (!unit)
-    out.fault_always(Fault::normal_not_unit, std::abs(length - 1), q,
-                     std::abs(length - 1) < prints_as_one
-                         ? fmt::format("the normal's length is {:.2g} off 1", std::abs(length - 1))
-                         : fmt::format("the normal has length {:.9g}", length));
+  if (!unit) out.fault_always(Fault::normal_not_unit, std::abs(length - 1), q, words_on_length(length));
   const bool number = !c.depth || std::isfinite(*c.depth);
   if (!number) out.fault_always(Fault::no_number, 0, q, fmt::format("the depth is {}", *c.depth));
   return unit && number;
