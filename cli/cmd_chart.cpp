@@ -151,7 +151,10 @@ int verdict(const fuzz::Chart& chart, const std::string& subject, bool json) {
   return print_verdict(exit_clean, subject, fmt::format("0 wrong in {} queries", asked), json);
 }
 
-int run(const ChartOptions& o) {
+int run(ChartOptions o) {
+  // An engine of the document's table that is absent is an error: the table would lose its row.
+  if (!o.document.empty() && o.from.empty() && o.choice.engines == "all")
+    o.choice.engines = fmt::format("{}", fmt::join(reports::engines_of_excerpt(), ","));
   if (o.from.empty()) fuzz::make_directory(o.out);  // fails before half an hour of work, not after it
   std::string subject;
   const fuzz::Chart chart = o.from.empty() ? measured(o, subject) : stored(o.from);
@@ -182,7 +185,8 @@ Run declare_chart(CLI::App& app) {
   add_case_seconds(app, o->limits);
   app.add_option("--from", o->from, "a chart.json to print instead of measuring one");
   app.add_option("--update", o->document,
-                 "also update the chart block in this file, and chart.json and the pictures beside it");
+                 "also update the chart block in this file, and chart.json and the pictures beside it; "
+                 "unless --engines says otherwise, the engines of that block are queried");
   app.add_flag("--json", o->json, "the whole result as one JSON document on stdout");
   return [o] { return run(*o); };
 }

@@ -94,7 +94,7 @@ Run declare_view(CLI::App& app) {
          "case or scene file, robot or world file, name of a scenario, or directory of a recorded scene "
          "(scene.txt, frames.npy)")
       ->required();
-  app.add_option("--engines", o->engines, "engines to query: names, plug-in paths, or all")
+  app.add_option("--engines", o->engines, "engines to query: names, plug-in paths, all")
       ->capture_default_str();
   add_case_seconds(app, o->limits);
   add_import_options(app, o->import);

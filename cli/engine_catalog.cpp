@@ -89,9 +89,11 @@ std::optional<PluginEngine> find_plugin_engine(const std::string& name) {
   return own.empty() ? std::nullopt : named(name, engines_of(own_engine(own)));
 }
 
-// The names that stand for a registration: its engine of that name, or all that answer about pairs.
+// What a name stands for: "all" for every engine of this build that answers about pairs, a registration for
+// its engine of that name or, if there is none, for all that answer about pairs.
 std::vector<std::string> expanded(const std::string& name) {
-  if (own_name_of(name) != name) return {name};
+  if (name == "all") return present_engines(EngineKind::pairs);
+  if (is_foreign(name) || own_name_of(name) != name) return {name};
   std::vector<std::string> names;
   for (const PluginEngine& e : engines_of(own_engine(name)))
     if (e.kind == EngineKind::pairs) names.push_back(e.card.name);
@@ -229,12 +231,11 @@ std::filesystem::path host_program() { return program_directory() / "touchstone-
 std::filesystem::path plugin_directory() { return program_directory().parent_path() / "lib"; }
 
 std::vector<std::string> engine_names(const std::string& text) {
-  if (text == "all") return present_engines(EngineKind::pairs);
   std::vector<std::string> names;
   for_each_in_list(text, [&](std::string_view part) {
     const std::string name(part);
     if (name.empty()) throw InputError("engines '" + text + "'", "contains an empty name");
-    for (const std::string& each : is_foreign(name) ? std::vector{name} : expanded(name)) {
+    for (const std::string& each : expanded(name)) {
       check_name(each);
       if (std::find(names.begin(), names.end(), each) == names.end()) names.push_back(each);
     }

@@ -156,6 +156,7 @@ std::string describe_law(std::span<const ErrorLaw> laws) {
     case Reference::truth:
       if (std::abs(factor) < visible_share)
         return fmt::format("off by {:.2g} of the true value", std::abs(factor));
+      if (std::abs(1 + factor) < visible_share) return "about 0 instead of the true value";
       return fmt::format("{:.3g} times the true value", 1 + factor);
     case Reference::one:
       return fmt::format("off by {:.2g} at any scale", std::abs(factor));

@@ -28,6 +28,7 @@ class World {
 
   /// Whether MuJoCo has such a shape, and so a geom for the body.
   bool has_geom(int body) const { return geoms_[static_cast<std::size_t>(body)] >= 0; }
+  std::size_t bodies() const { return geoms_.size(); }
   bool has_all() const {
     return std::ranges::all_of(geoms_, [](int geom) { return geom >= 0; });
   }

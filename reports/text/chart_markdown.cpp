@@ -25,18 +25,32 @@ struct Part {
 const Part parts[] = {
     {"overlap",
      "overlap",
-     {"core", "core-f32", "fcl-libccd", "bullet-f64-query", "libccd-gjk", "libccd-mpr", "ode"}},
-    {"distance", "distance", {"core", "core-f32", "fcl-libccd", "bullet-f64-query"}},
+     {"core", "core-f32", "fcl-libccd", "bullet-f64-query", "libccd-gjk", "libccd-mpr", "ode", "dart",
+      "mujoco2", "mujoco", "physx-query", "havok", "jolt", "rapier"}},
+    {"distance",
+     "distance",
+     {"core", "core-f32", "fcl-libccd", "bullet-f64-query", "mujoco", "physx-gjk", "havok", "jolt",
+      "rapier"}},
     {"contact",
      "contact",
-     {"core", "core-f32", "fcl-libccd", "bullet-f64-query", "libccd-gjk", "libccd-mpr", "ode"}},
+     {"core", "core-f32", "fcl-libccd", "bullet-f64-query", "libccd-gjk", "libccd-mpr", "ode", "dart",
+      "mujoco2", "mujoco", "physx-gjk", "havok", "jolt", "rapier"}},
     {"time_of_impact",
      "impact",
-     {"core", "core-steps@16", "core-steps@256", "fcl-libccd", "fcl-libccd-tuned", "bullet-f64-query"}},
+     {"core", "core-steps@16", "core-steps@256", "fcl-libccd", "fcl-libccd-tuned", "bullet-f64-query",
+      "physx-query", "havok", "jolt", "rapier"}},
     {"candidates",
      "candidates",
      {"automatic", "neighbour_list", "fcl-dynamic-tree", "fcl-ssap", "bullet-f64-dbvt", "ode-sap"}},
 };
+
+// How the libraries of engines that run as WebAssembly end, and how those engines are marked.
+constexpr std::string_view wasm_ending = ", WASM", wasm_word = "WASM";
+
+constexpr const char* wasm_words =
+    "Engines marked WASM run as WebAssembly under Node; their times include the calls from JavaScript. ";
+
+bool runs_as_wasm(const fuzz::ChartEngine& e) { return e.library.ends_with(wasm_ending); }
 
 bool is_core(const ChartRow& r) {
   return r.question == "candidates" ? r.engine == "automatic" : r.engine == "core";
@@ -78,15 +92,15 @@ std::vector<ChartRow> rows_of(const Chart& c, const Part& part) {
 }
 
 // The core's broad phases are named without "core"; this adds it.
-std::string name_of(const ChartRow& r) {
+std::string name_of(const Chart& c, const ChartRow& r) {
   if (r.question == "candidates" && (r.engine == "automatic" || r.engine == "neighbour_list"))
     return "core (" + r.engine + ")";
-  return r.engine;
+  return is_wasm(c, r) ? fmt::format("{} ({})", r.engine, wasm_word) : r.engine;
 }
 
-std::string line(const ChartRow& r, const std::string& asked) {
+std::string line(const Chart& c, const ChartRow& r, const std::string& asked) {
   const bool crowd = r.question == "candidates";
-  const std::string name = is_core(r) ? "**" + name_of(r) + "**" : name_of(r);
+  const std::string name = is_core(r) ? "**" + name_of(c, r) + "**" : name_of(c, r);
   const std::string worst = crowd ? fmt::format("{:.0f} % true", 100 * r.precision()) : small(r.error_max);
   // For candidates a ghost is not a fault.
   const std::uint64_t ghosts = crowd ? 0 : r.ghost, verdicts = r.missed + ghosts;
@@ -97,10 +111,17 @@ std::string line(const ChartRow& r, const std::string& asked) {
                      grouped(r.failed), grouped(r.answers + r.failed));
 }
 
+// "PhysX 5.6.1, WASM" and "2.7.3": "PhysX 5.6.1 (WASM 2.7.3)".
+std::string library_words(const fuzz::ChartEngine& e) {
+  if (!runs_as_wasm(e)) return e.library + " " + e.version;
+  return fmt::format("{} ({} {})", e.library.substr(0, e.library.size() - wasm_ending.size()), wasm_word,
+                     e.version);
+}
+
 std::string versions(const Chart& c) {
   std::set<std::string> all;
   for (const fuzz::ChartEngine& e : c.engines)
-    if (e.library != "Touchstone core" && !e.library.empty()) all.insert(e.library + " " + e.version);
+    if (e.library != "Touchstone core" && !e.library.empty()) all.insert(library_words(e));
   return fmt::format("{}", fmt::join(all, ", "));
 }
 
@@ -113,7 +134,7 @@ std::string faster(const Chart& c) {
     if (core == rows.end()) continue;
     std::string names;
     for (auto r = rows.begin(); r != core; ++r) {
-      names += (names.empty() ? "" : ", ") + name_of(*r);
+      names += (names.empty() ? "" : ", ") + name_of(c, *r);
       if (!r->unsound.empty()) names += fmt::format(" ({})", r->unsound);
     }
     text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", part.words, names.empty() ? "none" : names);
@@ -122,6 +143,21 @@ std::string faster(const Chart& c) {
 }
 
 }  // namespace
+
+bool is_wasm(const Chart& c, const ChartRow& row) {
+  return std::any_of(c.engines.begin(), c.engines.end(),
+                     [&](const fuzz::ChartEngine& e) { return e.name == row.engine && runs_as_wasm(e); });
+}
+
+std::vector<std::string> engines_of_excerpt() {
+  std::vector<std::string> names;
+  for (const Part& part : parts)
+    for (const std::string_view name : part.engines)
+      if (part.question != std::string_view("candidates") &&
+          std::find(names.begin(), names.end(), name) == names.end())
+        names.emplace_back(name);
+  return names;
+}
 
 Chart chart_excerpt(const Chart& c) {
   Chart excerpt = c;
@@ -147,21 +183,22 @@ std::string chart_markdown(const Chart& c) {
   for (const Part& part : parts) {
     std::string asked = part.words;
     for (const ChartRow& r : rows_of(c, part)) {
-      s += line(r, std::exchange(asked, ""));
+      s += line(c, r, std::exchange(asked, ""));
       if (r.question == "candidates") crowd = r.bodies;
     }
   }
+  const bool any_wasm = std::any_of(c.engines.begin(), c.engines.end(), runs_as_wasm);
   const std::string words = fmt::format(
       "Engines with a lower median time than the core: {}. Measured {} on {}, {} cores, load {:.1f}, "
       "compiler {}, {}; {} chart, seed {}, {} interleaved rounds; candidates: {} bodies, inserted and "
       "queried once. Engines are as shipped; `fcl-libccd-tuned` is FCL's conservative advancement, "
-      "`core-steps@16` the core's overlap test at 17 times of the step. Errors are measured by the referee "
+      "`core-steps@16` the core's overlap test at 17 times of the step. {}Errors are measured by the referee "
       "and divided by the scale L of the scene; an answer is wrong if its error exceeds the tolerance "
       "claimed "
       "in the engine's own documentation. All settings and groups: `./touchstone chart`; these numbers: "
       "`docs/chart.json`.",
       faster(c), c.machine.date, c.machine.processor, c.machine.cores, c.machine.load, c.machine.compiler,
-      versions(c), c.scope, c.seed, c.rounds, grouped(crowd));
+      versions(c), c.scope, c.seed, c.rounds, grouped(crowd), any_wasm ? wasm_words : "");
   return s + "\n" + wrapped(words, 125, 0) + "\n";
 }
 

@@ -22,12 +22,12 @@ constexpr std::array panels = {Panel{"overlap", "Overlap"}, Panel{"distance", "D
                                Panel{"contact", "Contact"}, Panel{"time_of_impact", "Time of impact"}};
 
 // In pixels; in powers of ten of nanoseconds and of the scale L.
-constexpr double panel_width = 440, panel_height = 300, left = 64, right = 20, top = 34, bottom = 34;
-constexpr double least_time = 2, most_time = 5, least_error = -16, most_error = 2, error_step = 3;
-constexpr double character_width = 6.6, line_height = 13, label_gap = 8;
+constexpr double panel_width = 440, panel_height = 340, left = 64, right = 20, top = 34, bottom = 34;
+constexpr double least_time = 2, most_time = 5.5, least_error = -16, most_error = 2, error_step = 3;
+constexpr double character_width = 6.6, line_height = 13, label_gap = 9, ring_radius = 7;
 constexpr std::size_t panels_per_row = 2;
-// Two lines of a legend below the panels.
-constexpr double legend_height = 44;
+// Three lines of a legend below the panels.
+constexpr double legend_height = 62;
 
 struct Colours {
   const char *text, *faint, *grid, *core, *other, *wrong, *background;
@@ -91,7 +91,8 @@ std::string axes(const Colours& c, const char* title) {
 Area label_area(Point p, std::size_t characters, const std::vector<Area>& taken) {
   const double width = character_width * static_cast<double>(characters), half = line_height / 2;
   std::vector<Area> choices;
-  for (const double shift : {0.0, -line_height, line_height, -2 * line_height, 2 * line_height}) {
+  for (const double lines : {0.0, -1.0, 1.0, -2.0, 2.0, -3.0, 3.0, -4.0, 4.0, -5.0, 5.0}) {
+    const double shift = lines * line_height;
     choices.push_back({p.x + label_gap, p.y - half + shift, width, line_height});
     choices.push_back({p.x - label_gap - width, p.y - half + shift, width, line_height});
   }
@@ -115,6 +116,21 @@ std::string symbol(Point p, const ChartRow& r, const Colours& c) {
                      r.engine == "core" ? 6 : 4, colour);
 }
 
+// From the point to a label that is not beside it.
+std::string leader(Point p, const Area& label, const Colours& c) {
+  const bool above = label.y < p.y;
+  const Point end{std::clamp(p.x, label.x, label.x + label.width), above ? label.y + line_height : label.y};
+  if (std::abs(end.y - p.y) < ring_radius + 1) return "";
+  return fmt::format("<path d=\"M{:.1f} {:.1f}L{:.1f} {:.1f}\" stroke=\"{}\"/>\n", p.x,
+                     p.y + (above ? -ring_radius : ring_radius), end.x, end.y, c.faint);
+}
+
+// Around the symbol of an engine that runs as WebAssembly.
+std::string ring(Point p, const Colours& c) {
+  return fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\" fill=\"none\" stroke=\"{}\"/>\n", p.x, p.y,
+                     ring_radius, c.faint);
+}
+
 std::string panel(const fuzz::Chart& chart, const Panel& which, const Colours& c) {
   std::vector<const ChartRow*> rows;
   for (const ChartRow& r : chart.rows)
@@ -123,13 +139,14 @@ std::string panel(const fuzz::Chart& chart, const Panel& which, const Colours& c
   std::vector<Area> taken;
   for (const ChartRow* r : rows) {
     const Point p = place(r->ns_median, r->error_max);
-    taken.push_back({p.x - 6, p.y - 6, 12, 12});
+    taken.push_back({p.x - ring_radius, p.y - ring_radius, 2 * ring_radius, 2 * ring_radius});
   }
   for (const ChartRow* r : rows) {
     const Point p = place(r->ns_median, r->error_max);
     const Area a = label_area(p, r->engine.size(), taken);
     taken.push_back(a);
-    s += symbol(p, *r, c);
+    s += leader(p, a, c) + symbol(p, *r, c);
+    if (is_wasm(chart, *r)) s += ring(p, c);
     s += text_at({a.x, a.y + line_height - 3}, "start", r->engine == "core" ? c.core : c.text, r->engine,
                  r->engine == "core" ? " font-weight=\"600\"" : "");
   }
@@ -145,12 +162,18 @@ std::string legend(const fuzz::Chart& chart, const Colours& c, double y) {
   const double below = y + line_height + 5;
   s += symbol({left + 4, below - 4}, right_always, c) +
        text_at({left + 2 * label_gap, below}, "start", c.faint, "never wrong");
-  const double next = left + 100;
-  s += symbol({next + 4, below - 4}, wrong_once, c) +
-       text_at({next + 2 * label_gap, below}, "start", c.faint,
-               fmt::format("wrong on some queries. {}, {} cores, {}", chart.machine.processor,
-                           chart.machine.cores, chart.machine.date));
-  return s;
+  const double second = left + 100, third = second + 160;
+  s += symbol({second + 4, below - 4}, wrong_once, c) +
+       text_at({second + 2 * label_gap, below}, "start", c.faint, "wrong on some queries");
+  const bool any_wasm =
+      std::any_of(chart.rows.begin(), chart.rows.end(), [&](const ChartRow& r) { return is_wasm(chart, r); });
+  if (any_wasm)
+    s += ring({third + 4, below - 4}, c) +
+         text_at({third + 2 * label_gap, below}, "start", c.faint,
+                 "as WebAssembly: the time includes the calls from JavaScript");
+  return s + text_at({left, below + line_height + 5}, "start", c.faint,
+                     fmt::format("{}, {} cores, {}", chart.machine.processor, chart.machine.cores,
+                                 chart.machine.date));
 }
 
 }  // namespace

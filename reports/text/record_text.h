@@ -45,8 +45,14 @@ std::string chart_text(const fuzz::Chart& c);
 // The documents' comparison of the core with the engines as shipped: an excerpt of a chart, its block of
 // Markdown, and its picture.
 
+/// The engines of the block's table that answer about pairs.
+std::vector<std::string> engines_of_excerpt();
+
 /// The rows that the block needs and the engines that they name. Idempotent.
 fuzz::Chart chart_excerpt(const fuzz::Chart& c);
+
+/// Whether the row's engine runs as WebAssembly, so that its times include the calls from JavaScript.
+bool is_wasm(const fuzz::Chart& c, const fuzz::ChartRow& row);
 
 /// A table of the excerpt and a description of the measurement, to stand between the markers below.
 std::string chart_markdown(const fuzz::Chart& excerpt);

@@ -341,6 +341,15 @@ TEST_CASE("the exit code is about the chosen engine, by any of its names, and th
   CHECK(twice.err.find("are both called overlap_always") != std::string::npos);
 }
 
+TEST_CASE("all may stand in a list of engines beside others", "[cli]") {
+  const Workspace w("cli");
+  const Run r = w.touchstone("replay spheres_kiss --json --engines all," + mutant + "overlap_always,core");
+  const nlohmann::json engines = parsed<nlohmann::json>(r.out)[0]["queries"][0]["engines"];
+  CHECK(engines.contains("overlap_always"));
+  CHECK(engines.contains("core-f32"));
+  CHECK(last_line(r.out + r.err).starts_with("exit code 0 is about core"));
+}
+
 TEST_CASE("chart and stability refuse an unknown subject", "[cli]") {
   const Workspace w("cli");
   const std::string chart = "chart --from " TS_SOURCE_DIR "/docs/chart.json ";

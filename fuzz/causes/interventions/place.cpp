@@ -1,6 +1,7 @@
 // The same scene in another unit, or elsewhere.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "fuzz/causes/intervention.h"
 #include "fuzz/judge/exact_map.h"
@@ -67,10 +68,11 @@ std::optional<Case> move_to_negative(const Case& c) {
 
 namespace {
 
-// A quarter turn about one axis of the world, which rounds.
+// A quarter turn about one axis of the world, which rounds. The lengths of quaternions stay what they are.
 Case quarter_turn(const Case& c, int axis) {
-  const Vec3 about = Vec3::Unit(axis);
-  const Quat quarter{about.x(), about.y(), about.z(), 1};
+  constexpr double half_angle = std::numbers::pi / 4;
+  const Vec3 about = Vec3::Unit(axis) * std::sin(half_angle);
+  const Quat quarter{about.x(), about.y(), about.z(), std::cos(half_angle)};
   const int next = (axis + 1) % 3, after = (axis + 2) % 3;
   Mat3 m = Mat3::Zero();
   m(axis, axis) = 1;
@@ -79,7 +81,7 @@ Case quarter_turn(const Case& c, int axis) {
   Case r = c;
   const auto turn = [&](Pose& p) {
     p.translation = m * p.translation;
-    p.rotation = normalized(quarter * p.rotation);
+    p.rotation = quarter * p.rotation;
   };
   for (Body& b : r.scene.bodies) {
     turn(b.pose);

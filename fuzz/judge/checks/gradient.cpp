@@ -4,7 +4,8 @@
 // support planes.
 //
 // A normal within τ of the best may be off by an angle of √(τ/L), and what is measured across it by as much
-// of a length: points on the line are allowed √(τL) besides τ.
+// of a length: points on the line are allowed √(τL) besides τ. Such an error e is charted as what it costs in
+// distance, e²/L.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -28,7 +29,8 @@ struct Stated {
 
 void report(const CheckInput& in, CheckOutput& out, double error, const Stated& s, double most,
             std::string words) {
-  out.error(error, s.l, most);
+  const bool is_across = most > s.tau && s.l > 0;
+  out.error(is_across ? error * error / s.l : error, s.l, most);
   if (error > most) out.fault(Fault::gradient_off, error, s.l, in.query, std::move(words));
 }
 
