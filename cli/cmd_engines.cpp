@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -98,6 +99,19 @@ int list(const std::string& which, bool json, const WorkerLimits& limits) {
         fmt::print("{:<24} unusable: {}\n", own, reports::wrapped(e.what(), 76, 4));
     }
   };
+  // By name only: starting dozens of them takes as many seconds.
+  const auto list_releases = [&] {
+    std::map<std::string, std::vector<std::string>> releases;
+    for (const NpmEngine& e : installed_releases()) {
+      if (json)
+        j.push_back({{"name", e.name()}, {"release_of", e.row->name}, {"version", e.version()}});
+      else
+        releases[std::string(e.row->name)].push_back(e.version());
+    }
+    for (const auto& [engine, versions] : releases)
+      fmt::print("{:<24} {}\n", engine + "@",
+                 reports::wrapped(fmt::format("installed releases: {}", fmt::join(versions, ", ")), 54, 25));
+  };
   if (!which.empty()) {
     for (const auto& name : engine_names(which)) show(name);
   } else {
@@ -113,7 +127,7 @@ int list(const std::string& which, bool json, const WorkerLimits& limits) {
         fmt::print("{:<24} absent: engines --install {} gets it from npm\n    {}\n", row.name, row.name,
                    row.line);
     }
-    for (const NpmEngine& e : installed_releases()) show(e.name());
+    list_releases();
     const std::vector<std::string> registered = own_names();
     for (const std::string& adapter : optional_adapters())
       if (!std::ranges::binary_search(registered, adapter)) show_optional(adapter);

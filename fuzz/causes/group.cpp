@@ -160,6 +160,12 @@ class Grouping {
     return may_share_route(i, j) && respond_alike(i, j);
   }
 
+  // Asked alone, neither case shows its fault: as far as anyone can see, one cause.
+  bool are_silent_alike(std::size_t i, std::size_t j) const {
+    return !is_usable(i) && !is_usable(j) && is_same_library(i, j) &&
+           class_of(i).route == class_of(j).route && symptom(i) == symptom(j);
+  }
+
   // A case that proves nothing about its cause joins the first group of its class; where responses are exact,
   // the first one whose cases prove nothing either.
   bool fits(std::size_t i, const Group& g) const {
@@ -171,7 +177,9 @@ class Grouping {
     const bool exact = is_exact(noise(class_of(i).path));
     if (is_usable(i) && (exact || !is_fragile(at(i).first.responses))) return false;
     if (exact && is_usable(leader)) return false;  // what shows when asked alone has another cause
-    return std::ranges::any_of(g.members, [&](std::size_t m) { return at(m).of_class == at(i).of_class; });
+    return std::ranges::any_of(g.members, [&](std::size_t m) {
+      return at(m).of_class == at(i).of_class || are_silent_alike(m, i);
+    });
   }
 
   void join_or_found(std::size_t i) {
