@@ -177,23 +177,28 @@ void Assembly::add_consequences(Cause& c, const Group& g) const {
 
 std::uint64_t Assembly::wrong(const Group& g) const { return wrong_answers(findings_of(g)); }
 
-std::string Assembly::path_word(const Group& g) const {
-  std::string first = classes_[leader(g).of_class].path;
-  for (const std::size_t m : g.members) first = std::min(first, classes_[all_[m].of_class].path);
-  return id_word(first);
+// The first key, in their order, that has at least an eighth as many wrong answers as the most frequent one:
+// what is rare in one campaign may be absent from the next, and must not change a cause's id.
+template <class KeyOf>
+auto Assembly::first_frequent(const Group& g, KeyOf&& key_of) const {
+  constexpr std::uint64_t rare = 8;
+  std::map<std::decay_t<decltype(key_of(g.members.front()))>, std::uint64_t> counts;
+  std::uint64_t most = 0;
+  for (const std::size_t m : g.members)
+    for (const Finding* f : all_[m].stands_for) most = std::max(most, counts[key_of(m)] += f->count);
+  return std::ranges::find_if(counts, [&](const auto& x) { return rare * x.second >= most; })->first;
 }
 
-// The first path, route and question of the members, in their order.
+std::string Assembly::path_word(const Group& g) const {
+  return id_word(first_frequent(g, [&](std::size_t m) { return classes_[all_[m].of_class].path; }));
+}
+
 std::uint64_t Assembly::place_hash(const Group& g) const {
-  std::string route = classes_[leader(g).of_class].route;
-  Question question = symptom(g).question;
-  for (const std::size_t m : g.members) {
-    route = std::min(route, classes_[all_[m].of_class].route);
-    question = std::min(question, all_[m].symptom.question);
-  }
   Hasher hash;
   hash.add(path_word(g)).add(symptom(g).detail).add(g.documented);
-  if (g.documented.empty()) hash.add(route).add(to_string(question));
+  if (!g.documented.empty()) return hash.value();
+  hash.add(first_frequent(g, [&](std::size_t m) { return classes_[all_[m].of_class].route; }));
+  hash.add(to_string(first_frequent(g, [&](std::size_t m) { return all_[m].symptom.question; })));
   return hash.value();
 }
 
@@ -217,12 +222,12 @@ std::uint64_t Assembly::response_hash(const Group& g, std::uint64_t place) const
 std::vector<Group> Assembly::identified(std::vector<Group> groups) const {
   std::stable_sort(groups.begin(), groups.end(),
                    [&](const Group& x, const Group& y) { return wrong(x) > wrong(y); });
-  std::set<std::uint64_t> taken;  // places, each by the most frequent group there
+  std::set<std::pair<FaultStage, std::uint64_t>> taken;  // places, each by the most frequent group there
   std::map<std::string, std::size_t> known;
   std::vector<Group> distinct;
   for (Group& g : groups) {
     const std::uint64_t place = place_hash(g);
-    const bool is_first = taken.insert(place).second && !is_exact(g);
+    const bool is_first = taken.insert({symptom(g).stage, place}).second && !is_exact(g);
     constexpr std::size_t digits = 6;
     g.id = fmt::format("{}-{}-{}", path_word(g), to_string(symptom(g).stage),
                        hex64(is_first ? place : response_hash(g, place)).substr(0, digits));

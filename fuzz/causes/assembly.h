@@ -51,6 +51,8 @@ class Assembly {
   void show_gravest(Group& g) const;
   void share_explained(std::vector<Group>& groups) const;
   std::uint64_t wrong(const Group& g) const;
+  template <class KeyOf>
+  auto first_frequent(const Group& g, KeyOf&& key_of) const;
   std::string path_word(const Group& g) const;
   std::uint64_t place_hash(const Group& g) const;
   std::uint64_t response_hash(const Group& g, std::uint64_t place) const;
