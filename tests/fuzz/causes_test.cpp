@@ -755,6 +755,46 @@ TEST_CASE("a cause is shown by a case with the gravest of its faults, which its 
   CHECK(assembly.cause_of(again.at(0)).title.starts_with("Normals are not those of the least depth"));
 }
 
+TEST_CASE("the id of a cause does not depend on findings that are rare in the campaign", "[causes]") {
+  const auto id = [](std::uint64_t of_a, std::uint64_t of_b) {
+    TwoExamined two(finding("a", "overlap", "missed", "box-box", of_a),
+                    finding("b", "contact", "missed", "mesh-sphere", of_b));
+    fuzz::Parts p;
+    p.classes = two.classes;
+    p.all = two.all;
+    p.noise = {{"a", 0.1}, {"b", 0.1}};
+    fuzz::Group both;
+    both.members = {0, 1};
+    return fuzz::Assembly(two.result, p, two.knowledge).identified({both}).at(0).id;
+  };
+  CHECK(id(1, 80) == id(2, 99));
+  CHECK(id(1, 80).starts_with("b-verdict-"));
+  CHECK(id(80, 1).starts_with("a-verdict-"));
+  CHECK(id(80, 1) == id(40, 40));
+  CHECK(id(20, 80) == id(40, 40));
+}
+
+TEST_CASE("the most frequent groups of two stages in one place keep their ids beside each other",
+          "[causes]") {
+  const auto ids = [](std::uint64_t depths, std::uint64_t points) {
+    TwoExamined two(finding("a", "contact", "infeasible", "box-box", depths),
+                    finding("a", "contact", "point_off", "box-box", points));
+    fuzz::Parts p;
+    p.classes = two.classes;
+    p.all = two.all;
+    p.noise = {{"a", 0.1}};
+    fuzz::Group one, other;
+    one.members = {0};
+    other.members = {1};
+    std::set<std::string> all;
+    for (const fuzz::Group& g : fuzz::Assembly(two.result, p, two.knowledge).identified({one, other}))
+      all.insert(g.id);
+    return all;
+  };
+  CHECK(ids(9, 5).size() == 2);
+  CHECK(ids(9, 5) == ids(5, 9));
+}
+
 TEST_CASE("a title says which answers deny an overlap or claim one", "[causes]") {
   const auto title = [](Question q, fuzz::Severity severity, bool one) {
     return fuzz::describe_fault({severity, {q, FaultStage::verdict, ""}, "", "", {"convex"}, {}, one});
