@@ -324,7 +324,9 @@ TEST_CASE("known faults of engines from npm are shown by programs against the en
   const Workspace w("npm");
   const std::string unit = R"({"type": "box", "half_extents": [1, 1, 1]})",
                     small = R"({"type": "box", "half_extents": [0.5, 0.5, 0.5]})",
-                    cylinder = R"({"type": "cylinder", "radius": 1, "half_height": 1})";
+                    cylinder = R"({"type": "cylinder", "radius": 1, "half_height": 1})",
+                    cone = R"({"type": "cone", "radius": 1, "half_height": 0.000244140625})",
+                    corner = R"({"type": "hull", "vertices": [[0,0,0], [1,0,0], [0,1,0], [0,0,1]]})";
   const std::string moves = R"(, "pose": {"translation": [0, 0, 5]}, "motion": {"linear": [0, 0, -10]})";
   struct Known {
     const char *engine, *key;
@@ -333,7 +335,8 @@ TEST_CASE("known faults of engines from npm are shown by programs against the en
   // Truth by hand. Two equal cylinders with one centre overlap by 2 (axis and diameter). Cubes of side 1 with
   // one centre need 1 along a face, √3 along a diagonal. The cylinder's lower end, at 4, meets the box's
   // upper face, at 1, after 3 of 10. A ball of radius 1 at distance 3 from the axis of a cylinder of radius 1
-  // is 1 from it at every angle. A ball in a cube shares all of its points.
+  // is 1 from it at every angle. A ball in a cube shares all of its points, and so do two equal cones in one
+  // place. A ball about the corner of a tetrahedron leaves it after its radius, along any axis backwards.
   const Known all[] = {
       {"mujoco", "mujoco.overlap.missed.cylinder-cylinder.algorithm.solid.gross",
        pair_case(cylinder, cylinder, "overlap")},
@@ -344,6 +347,9 @@ TEST_CASE("known faults of engines from npm are shown by programs against the en
       {"havok", "havok.distance.distance_off.cylinder-sphere.representation.solid.small",
        pair_case(cylinder, R"({"type": "sphere", "radius": 1})", "distance",
                  R"(, "pose": {"translation": [2.942355841, 0.5853, 0]})")},
+      {"jolt", "jolt.contact.missed.cone-cone.algorithm.solid.small", pair_case(cone, cone, "contact")},
+      {"rapier", "rapier.contact.not_minimal.hull-sphere.algorithm.solid.gross",
+       pair_case(corner, R"({"type": "sphere", "radius": 1})", "contact")},
       {"cannon", "cannon.overlap.missed.box-sphere.algorithm.solid.gross",
        pair_case(unit, R"({"type": "sphere", "radius": 0.5})", "overlap")},
   };

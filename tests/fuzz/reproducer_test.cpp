@@ -174,11 +174,11 @@ TEST_CASE("a program tells a time that is no number from no impact", "[reproduce
 TEST_CASE("engines from npm have programs in JavaScript, and none in C++", "[reproduce]") {
   const std::vector<std::pair<Shape, Shape>> pairs{{Box{{0.5, 0.5, 0.5}}, Sphere{0.5}},
                                                    {Capsule{0.5, 0.5}, Cylinder{0.5, 0.5}}};
-  const std::pair<const char*, const char*> packages[] = {{"mujoco", "@mujoco/mujoco@"},
-                                                          {"mujoco-libccd", "@mujoco/mujoco@"},
-                                                          {"physx-query", "physx-js-webidl@"},
-                                                          {"physx-gjk", "physx-js-webidl@"},
-                                                          {"havok", "@babylonjs/havok@"}};
+  const std::pair<const char*, const char*> packages[] = {
+      {"mujoco", "@mujoco/mujoco@"},       {"mujoco-libccd", "@mujoco/mujoco@"},
+      {"physx-query", "physx-js-webidl@"}, {"physx-gjk", "physx-js-webidl@"},
+      {"havok", "@babylonjs/havok@"},      {"jolt", "jolt-physics@"},
+      {"jolt-tuned", "jolt-physics@"},     {"rapier", "@dimforge/rapier3d-compat@"}};
   for (const auto& [engine, package] : packages) {
     CHECK(has_reproducer(engine));
     int written = 0;
