@@ -68,7 +68,7 @@ def faults(findings, prefix):
 
 
 def npm_faults(findings, prefix):
-    return [c for c in rows(section(findings, "Engines from npm")) if c[0].strip("`").startswith(prefix)]
+    return [c for c in rows(section(findings, "Engines installed on request")) if c[0].strip("`").startswith(prefix)]
 
 
 def releases(findings, prefix):

@@ -102,7 +102,13 @@ TEST_CASE("every engine with a writer has a program for every question and every
                                          "bullet-f32-axis-sweep",
                                          "bullet-f32-simple",
                                          "ode-hash",
-                                         "ode-sap"};
+                                         "ode-sap",
+                                         "dart",
+                                         "dart-fcl",
+                                         "dart-fcl-mesh",
+                                         "dart-bullet",
+                                         "dart-ode",
+                                         "mujoco2"};
   const std::vector<Question> questions{Question::overlap,    Question::distance,
                                         Question::contact,    Question::time_of_impact,
                                         Question::candidates, Question::scene_contacts};
