@@ -30,10 +30,10 @@ std::vector<PluginEngine> engines_of_folder(std::string_view folder);
 /// not among them (core_broad_phases()).
 std::vector<std::string> present_engines(EngineKind kind);
 
-/// Names of `text` ("a,b", "all,jolt", "./libmine.so", "./libmine.so:name", "core-steps@16", a broad phase of the
-/// core or of an oracle, a release of an engine from npm "jolt@0.29.0", an engine that the user registered or
-/// the name of its registration); "all" is every engine of this build that answers more than candidates.
-/// Throws InputError for a name that is unknown or absent.
+/// Names of `text` ("a,b", "all,jolt", "./libmine.so", "./libmine.so:name", "core-steps@16", a broad phase of
+/// the core or of an oracle, a release of an engine from npm "jolt@0.29.0", an engine that the user
+/// registered or the name of its registration); "all" is every engine of this build that answers more than
+/// candidates. Throws InputError for a name that is unknown or absent.
 std::vector<std::string> engine_names(const std::string& text);
 
 /// True for an engine of Touchstone's core.

@@ -96,9 +96,6 @@ constexpr std::string_view check_no_impact = R"(function check(x) {
 // Error assumed for an impact that was not reported; half of it is the slack of the check.
 constexpr double error_of_missing_impact = 0.02;
 
-// fmt prints the shortest text that reads back as the same double, as JavaScript does.
-std::string numbers(const Vec3& v) { return fmt::format("[{}, {}, {}]", v.x(), v.y(), v.z()); }
-
 [[noreturn]] std::string no_mesh() {
   throw InputError("reproduce", "no program with a mesh is written for engines from npm");
 }
@@ -106,7 +103,7 @@ std::string numbers(const Vec3& v) { return fmt::format("[{}, {}, {}]", v.x(), v
 struct ShapeText {
   std::string operator()(const Hull& s) const {
     std::string list;
-    for (const Vec3& v : s.vertices) list += (list.empty() ? "" : ", ") + numbers(v);
+    for (const Vec3& v : s.vertices) list += (list.empty() ? "" : ", ") + js_array(v);
     return fmt::format("{{ type: \"hull\", vertices: [{}] }}", list);
   }
   std::string operator()(const TriangleMesh&) const { return no_mesh(); }
@@ -118,7 +115,7 @@ struct ShapeText {
       if constexpr (std::is_same_v<std::decay_t<decltype(v)>, double>)
         out += fmt::format(", {}: {}", name, v);
       else
-        out += fmt::format(", {}: {}", name, numbers(v));
+        out += fmt::format(", {}: {}", name, js_array(v));
     });
     return out + " }";
   }
@@ -129,8 +126,8 @@ std::string body_text(const EngineQuestion& q, int i) {
   const Mat3 r = rotation_matrix(p.rotation);
   return fmt::format(
       "{{ shape: {},\n    at: {}, quaternion: [{}, {}, {}, {}],  // x, y, z, w\n    rows: [{}, {}, {}] }}",
-      std::visit(ShapeText{}, q.scene.shape_of(i)), numbers(p.translation), p.rotation.x, p.rotation.y,
-      p.rotation.z, p.rotation.w, numbers(r.row(0)), numbers(r.row(1)), numbers(r.row(2)));
+      std::visit(ShapeText{}, q.scene.shape_of(i)), js_array(p.translation), p.rotation.x, p.rotation.y,
+      p.rotation.z, p.rotation.w, js_array(r.row(0)), js_array(r.row(1)), js_array(r.row(2)));
 }
 
 bool is_about_a_point(const std::string& fault) {

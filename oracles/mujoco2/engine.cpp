@@ -74,10 +74,8 @@ class Engine {
   }
 
  private:
-  /// MuJoCo collides all bodies at once. A scene of two does so for every question, whose time is measured; a
-  /// larger one once for all its pairs.
+  /// MuJoCo collides all bodies at once, which is what a question costs.
   void collide() {
-    if (collided_ && world_->bodies() > 2) return;
     world_->collide();
     collided_ = true;
   }
@@ -103,7 +101,7 @@ class Engine {
 
   /// With a sink, answers the whole contact; without one, only the overlap.
   void ask_contact(int a, int b, ts_answer& out, const ts_sink* sink) {
-    collide();
+    if (!collided_ || world_->bodies() == 2) collide();  // a larger scene once for all its pairs
     const std::vector<const mjContact*> all = contacts_of(a, b);
     kit::set_overlap(out, !all.empty());
     out.claimed_tolerance = goes_to_mpr(world_->type(a), world_->type(b)) ? mpr_tolerance : 0;

@@ -125,6 +125,13 @@ struct Description {
 
 }  // namespace
 
+std::string js_array(const Vec3& v) { return fmt::format("[{}, {}, {}]", v.x(), v.y(), v.z()); }
+
+std::string js_relative_translation(const EngineQuestion& q) {
+  const auto linear = [&](int i) { return q.body(i).motion ? q.body(i).motion->linear : Vec3(Vec3::Zero()); };
+  return js_array(linear(q.a) - linear(q.b));
+}
+
 bool has_support(const Shape& shape) { return is_convex(kind_of(shape)); }
 
 std::string support_function(std::string_view name, const Shape& shape, const Pose& pose) {

@@ -109,46 +109,6 @@ TEST_CASE("optional engines that are installed use the interface correctly", "[o
   if (checked == 0) skip("no optional engine is installed");
 }
 
-TEST_CASE("known faults of optional engines are shown by programs against the engine alone",
-          "[optional_engines][reproduce][optional]") {
-  const Workspace w("optional_faults");
-  struct Known {
-    const char *engine, *key, *shapes, *at;
-  };
-  // Truth by hand. Two balls of radius 1 whose centres are 1/2048 apart need 2 - 1/2048, along the line of
-  // their centres. A ball of radius 1 about the centre of a cube of side 2 needs 2, along an axis of the
-  // cube.
-  const Known all[] = {
-      {"dart", "dart.contact.normal_not_unit.sphere-sphere.algorithm.solid.gross",
-       R"({"type": "sphere", "radius": 1}, {"type": "sphere", "radius": 1})", "[0.00048828125, 0, 0]"},
-      {"mujoco2", "mujoco2.contact.infeasible.box-sphere.algorithm.solid.gross",
-       R"({"type": "sphere", "radius": 1}, {"type": "box", "half_extents": [1, 1, 1]})", "[0, 0, 0]"}};
-  std::size_t shown = 0;
-  for (const Known& k : all) {
-    if (w.touchstone("engines " + std::string(k.engine)).code != 0) continue;
-    w.write("known.json",
-            std::string(R"({"touchstone_case": 1, "scene": {"touchstone_scene": 1, "shapes": [)") + k.shapes +
-                R"(], "bodies": [{"shape": 0}, {"shape": 1, "pose": {"translation": )" + k.at +
-                R"(}}]}, "queries": [{"question": "contact", "a": 0, "b": 1}]})");
-    const Run made = w.touchstone("reproduce known.json -o reproduce.cpp --engine " + std::string(k.engine) +
-                                  " --key " + k.key);
-    INFO(k.engine << made.out << made.err);
-    REQUIRE(made.code == 0);
-    const std::string text = read_all(w.dir / "reproduce.cpp");
-    const std::size_t from = text.find("g++ "), to = text.find(" && ./reproduce", from);
-    REQUIRE(to != std::string::npos);
-    const Run compiled = w.run(text.substr(from, to - from));
-    INFO(compiled.out << compiled.err);
-    REQUIRE(compiled.code == 0);
-    const Run ran = w.run("./reproduce");
-    INFO(ran.out << ran.err);
-    CHECK(ran.code == 1);
-    CHECK(has(ran.out, "WRONG"));
-    ++shown;
-  }
-  if (shown == 0) skip("neither DART nor MuJoCo 2 is installed");
-}
-
 TEST_CASE("Boost's R-trees keep every pair of boxes", "[optional_engines][certify][optional]") {
   const Workspace w("rtree");
   if (w.touchstone("engines boost-rtree").code != 0) return skip("boost is not installed");

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/support/catch.h"
+#include "tests/support/pair_case.h"
 #include "tests/support/parsed.h"
 #include "tests/support/skip.h"
 #include "tests/support/workspace.h"
@@ -306,18 +307,6 @@ TEST_CASE("PhysX's broad phases keep every pair of boxes", "[pipe][npm][certify]
     CHECK(r.out.find("boxes certified") != std::string::npos);
   }
 }
-
-namespace {
-
-// Two bodies at the origin, and one question about them.
-std::string pair_case(const std::string& a, const std::string& b, const std::string& question,
-                      const std::string& of_a = "") {
-  return R"({"touchstone_case": 1, "scene": {"touchstone_scene": 1, "shapes": [)" + a + ", " + b +
-         R"(], "bodies": [{"shape": 0)" + of_a + R"(}, {"shape": 1}]}, "queries": [{"question": ")" +
-         question + R"(", "a": 0, "b": 1}]})";
-}
-
-}  // namespace
 
 TEST_CASE("known faults of engines from npm are shown by programs against the engine alone",
           "[pipe][npm][reproduce][optional]") {

@@ -6,6 +6,7 @@
 
 #include "tests/support/catch.h"
 #include "tests/support/causes_by_hand.h"
+#include "tests/support/pair_case.h"
 #include "tests/support/skip.h"
 #include "tests/support/workspace.h"
 
@@ -159,7 +160,8 @@ TEST_CASE("triage reports at once that it cannot create the directory for reprod
 TEST_CASE("triage writes one directory per cause, which replay, check and reproduce accept",
           "[reproduce][optional]") {
   const Workspace w("reproduce");
-  if (findings(w, "libccd-mpr", "--cases 60 --certificates").empty()) return skip("no findings: libccd is not installed");
+  if (findings(w, "libccd-mpr", "--cases 60 --certificates").empty())
+    return skip("no findings: libccd is not installed");
   const auto causes = causes_by_hand(w.dir / "libccd-mpr").causes;
   write_causes_by_hand(w.dir / "libccd-mpr");
   const Run first = w.touchstone("triage libccd-mpr --reproducers kept");
@@ -188,4 +190,41 @@ TEST_CASE("reproduce refuses what no program can show", "[reproduce]") {
   CHECK(w.touchstone("reproduce nothing_of_this_name").code == 2);
   const Run clean = w.touchstone("reproduce touching_boxes --engine core");
   CHECK((clean.code == 3 || clean.code == 2));
+}
+
+TEST_CASE("known faults of optional engines are shown by programs against the engine alone",
+          "[optional_engines][reproduce][optional]") {
+  const Workspace w("optional_faults");
+  const std::string ball = R"({"type": "sphere", "radius": 1})",
+                    cube = R"({"type": "box", "half_extents": [1, 1, 1]})";
+  struct Known {
+    const char *engine, *key;
+    std::string text;
+  };
+  // Truth by hand. Two balls of radius 1 whose centres are 1/2048 apart need 2 - 1/2048, along the line of
+  // their centres. A ball of radius 1 about the centre of a cube of side 2 needs 2, along an axis of the
+  // cube.
+  const Known all[] = {
+      {"dart", "dart.contact.normal_not_unit.sphere-sphere.algorithm.solid.gross",
+       pair_case(ball, ball, "contact", R"(, "pose": {"translation": [-0.00048828125, 0, 0]})")},
+      {"mujoco2", "mujoco2.contact.infeasible.box-sphere.algorithm.solid.gross",
+       pair_case(ball, cube, "contact")}};
+  std::size_t shown = 0;
+  for (const Known& k : all) {
+    if (w.touchstone("engines " + std::string(k.engine)).code != 0) continue;
+    w.write("known.json", k.text);
+    const Run made = w.touchstone("reproduce known.json -o reproduce.cpp --engine " + std::string(k.engine) +
+                                  " --key " + k.key);
+    INFO(k.engine << made.out << made.err);
+    REQUIRE(made.code == 0);
+    const Run compiled = w.run(compile_line(read_all(w.dir / "reproduce.cpp")));
+    INFO(compiled.out << compiled.err);
+    REQUIRE(compiled.code == 0);
+    const Run ran = w.run("./reproduce");
+    INFO(ran.out << ran.err);
+    CHECK(ran.code == 1);
+    CHECK(ran.out.find("WRONG") != std::string::npos);
+    ++shown;
+  }
+  if (shown == 0) skip("neither DART nor MuJoCo 2 is installed");
 }

@@ -660,6 +660,13 @@ struct TwoExamined {
     const std::vector<double> rates(classes.size(), 0.0);
     return fuzz::grouped({classes, all, rates, knowledge, noise}).size();
   }
+  fuzz::Parts parts(const fuzz::Noise& noise = {}) const {
+    fuzz::Parts p;
+    p.classes = classes;
+    p.all = all;
+    p.noise = noise;
+    return p;
+  }
   fuzz::Responded& response(std::size_t i, std::string_view name) {
     return *std::ranges::find(all[i].first.responses.responses, name, &fuzz::Responded::intervention);
   }
@@ -717,9 +724,7 @@ TEST_CASE("a title names no kind of shape that none of the cause's pairs has", "
     TwoExamined two(finding("x", "contact", "infeasible", pair, 9),
                     finding("y", "contact", "infeasible", pair, 5));
     two.response(0, "box_as_hull").response = fuzz::Response::gone;
-    fuzz::Parts p;
-    p.classes = two.classes;
-    p.all = two.all;
+    const fuzz::Parts p = two.parts();
     const fuzz::Assembly assembly(two.result, p, two.knowledge);
     fuzz::Group first;
     first.members = {0};
@@ -737,9 +742,7 @@ TEST_CASE("a cause is shown by a case with the gravest of its faults, which its 
   TwoExamined two(finding("x", "contact", "not_minimal", "box-box", 9),
                   finding("x", "contact", "infeasible", "mesh-sphere", 1));
   const std::size_t mild = two.all[0].finding->fault == "not_minimal" ? 0 : 1;
-  fuzz::Parts p;
-  p.classes = two.classes;
-  p.all = two.all;
+  fuzz::Parts p = two.parts();
   const fuzz::Assembly assembly(two.result, p, two.knowledge);
   fuzz::Group both;
   both.members = {mild, 1 - mild};
@@ -759,10 +762,7 @@ TEST_CASE("the id of a cause does not depend on findings that are rare in the ca
   const auto id = [](std::uint64_t of_a, std::uint64_t of_b) {
     TwoExamined two(finding("a", "overlap", "missed", "box-box", of_a),
                     finding("b", "contact", "missed", "mesh-sphere", of_b));
-    fuzz::Parts p;
-    p.classes = two.classes;
-    p.all = two.all;
-    p.noise = {{"a", 0.1}, {"b", 0.1}};
+    const fuzz::Parts p = two.parts({{"a", 0.1}, {"b", 0.1}});
     fuzz::Group both;
     both.members = {0, 1};
     return fuzz::Assembly(two.result, p, two.knowledge).identified({both}).at(0).id;
@@ -779,10 +779,7 @@ TEST_CASE("the most frequent groups of two stages in one place keep their ids be
   const auto ids = [](std::uint64_t depths, std::uint64_t points) {
     TwoExamined two(finding("a", "contact", "infeasible", "box-box", depths),
                     finding("a", "contact", "point_off", "box-box", points));
-    fuzz::Parts p;
-    p.classes = two.classes;
-    p.all = two.all;
-    p.noise = {{"a", 0.1}};
+    const fuzz::Parts p = two.parts({{"a", 0.1}});
     fuzz::Group one, other;
     one.members = {0};
     other.members = {1};

@@ -6,10 +6,9 @@ namespace touchstone::fuzz {
 namespace {
 
 constexpr std::string_view code = R"(const vec = (v) => new cannon.Vec3(...v);
-function made({ shape: s, at, quaternion: q }) {
-  const most = Math.max(...q.map(Math.abs)), n = Math.hypot(...q.map((c) => c / most));
-  const turn = new cannon.Quaternion(...q.map((c) => c / most / n));
-  const body = new cannon.Body({ mass: 1, position: vec(at), quaternion: turn });
+function made(placed) {
+  const { shape: s, at } = placed, quaternion = new cannon.Quaternion(...unit(placed));
+  const body = new cannon.Body({ mass: 1, position: vec(at), quaternion });
   body.addShape(s.type === "sphere" ? new cannon.Sphere(s.radius) : new cannon.Box(vec(s.half_extents)));
   return body;
 }
@@ -38,7 +37,7 @@ EngineSource source(const EngineQuestion& q) {
   EngineSource s;
   s.npm_package = "cannon-es";
   s.includes = "import * as cannon from \"cannon-es\";\n";
-  s.code = code;
+  s.code = std::string(js_unit) + std::string(code);
   return s;
 }
 

@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include "core/base/input_error.h"
 #include "oracles/reproducer/engine_source.h"
 #include "oracles/reproducer/source_text.h"
@@ -28,28 +26,24 @@ const shape = ({ shape: s }) => made({
   cylinder: () => hk.HP_Shape_CreateCylinder([0, 0, -s.half_height], [0, 0, s.half_height], s.radius),
   hull: () => hull(s.vertices),
 }[s.type]());
-function turn({ quaternion: q }) {
-  const most = Math.max(...q.map(Math.abs)), n = Math.hypot(...q.map((c) => c / most));
-  return q.map((c) => c / most / n);
-}
 function ask() {
   const { a, b } = bodies, world = made(hk.HP_World_Create()), hits = made(hk.HP_QueryCollector_Create(1));
   const body = made(hk.HP_Body_Create());
   hk.HP_Body_SetShape(body, shape(@STANDS@));
   hk.HP_Body_SetMotionType(body, hk.MotionType.STATIC);
-  hk.HP_Body_SetQTransform(body, [@STANDS@.at, turn(@STANDS@)]);
+  hk.HP_Body_SetQTransform(body, [@STANDS@.at, unit(@STANDS@)]);
   hk.HP_World_AddBody(world, body, false);
 @QUESTION@}
 )";
 
 constexpr std::string_view proximity =
-    R"(  hk.HP_World_ShapeProximityWithCollector(world, hits, [shape(b), b.at, turn(b), @REACH@, false, [0n]]);
+    R"(  hk.HP_World_ShapeProximityWithCollector(world, hits, [shape(b), b.at, unit(b), @REACH@, false, [0n]]);
   if (made(hk.HP_QueryCollector_GetNumHits(hits)) === 0) return { overlap: false, distance: NaN };
   const [distance, , on_a] = made(hk.HP_QueryCollector_GetShapeProximityResult(hits, 0)), normal = on_a[4];
   return { overlap: @SAYS@, distance, depth: -distance, normal };
 )";
 constexpr std::string_view cast = R"(  const moved = @MOVED@; // of A, as seen from B
-  hk.HP_World_ShapeCastWithCollector(world, hits, [shape(a), turn(a), a.at, a.at.map((c, k) => c + moved[k]), false, [0n]]);
+  hk.HP_World_ShapeCastWithCollector(world, hits, [shape(a), unit(a), a.at, a.at.map((c, k) => c + moved[k]), false, [0n]]);
   if (made(hk.HP_QueryCollector_GetNumHits(hits)) === 0) return { impact: null };
   return { impact: made(hk.HP_QueryCollector_GetShapeCastResult(hits, 0))[0] };
 )";
@@ -58,9 +52,7 @@ std::string question(const EngineQuestion& q) {
   if (q.question != Question::time_of_impact)
     return filled(proximity, {{"REACH", q.question == Question::distance ? "1e4" : "0"},
                               {"SAYS", q.question == Question::overlap ? "true" : "distance <= 0"}});
-  const auto linear = [&](int i) { return q.body(i).motion ? q.body(i).motion->linear : Vec3(Vec3::Zero()); };
-  const Vec3 v = linear(q.a) - linear(q.b);
-  return filled(cast, {{"MOVED", fmt::format("[{}, {}, {}]", v.x(), v.y(), v.z())}});
+  return filled(cast, {{"MOVED", js_relative_translation(q)}});
 }
 
 EngineSource source(const EngineQuestion& q) {
@@ -72,8 +64,9 @@ EngineSource source(const EngineQuestion& q) {
   EngineSource s;
   s.npm_package = "@babylonjs/havok";
   s.includes = includes;
-  s.code = filled(
-      code, {{"STANDS", q.question == Question::time_of_impact ? "b" : "a"}, {"QUESTION", question(q)}});
+  s.code =
+      std::string(js_unit) + filled(code, {{"STANDS", q.question == Question::time_of_impact ? "b" : "a"},
+                                           {"QUESTION", question(q)}});
   return s;
 }
 

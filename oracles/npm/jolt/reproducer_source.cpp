@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include "core/base/input_error.h"
 #include "oracles/reproducer/engine_source.h"
 #include "oracles/reproducer/source_text.h"
@@ -34,26 +32,24 @@ const settings = (s) => ({
 @HULL@    return hull;
   },
 }[s.type]());
-// Jolt's capsules, cylinders and cones stand on y, those of the bodies above on z.
-function turn({ shape: s, quaternion }) {
-  const most = Math.max(...quaternion.map(Math.abs)), scaled = quaternion.map((c) => c / most);
-  const [x, y, z, w] = scaled.map((c) => c / Math.hypot(...scaled));
-  const on_y = ["capsule", "cylinder", "cone"].includes(s.type);
-  return new Jolt.Quat(...(on_y ? [x + w, y + z, z - y, w - x].map((c) => c * Math.SQRT1_2) : [x, y, z, w]));
-}
 // Jolt positions a shape by its centre of mass. A matrix that a function returns is overwritten by its next call.
 function placed(body) {
-  const shape = settings(body.shape).Create().Get(), rotation = turn(body), at = new Jolt.RMat44();
+  const shape = settings(body.shape).Create().Get(), rotation = new Jolt.Quat(...turn(body)), at = new Jolt.RMat44();
   shape.AddRef();
   const m = Jolt.RMat44.prototype.sRotationTranslation(rotation, rvec(body.at)).PreTranslated(shape.GetCenterOfMass());
   const [x, y, z, t] = [m.GetAxisX(), m.GetAxisY(), m.GetAxisZ(), m.GetTranslation()].map(list);
-  at.SetAxisX(vec(x)), at.SetAxisY(vec(y)), at.SetAxisZ(vec(z)), at.SetTranslation(rvec(t));
+  at.SetAxisX(vec(x));
+  at.SetAxisY(vec(y));
+  at.SetAxisZ(vec(z));
+  at.SetTranslation(rvec(t));
   return { shape, rotation, at, centre: t };
 }
 const one = new Jolt.Vec3(1, 1, 1), origin = new Jolt.RVec3(0, 0, 0), every_shape = new Jolt.ShapeFilter();
 function transformed(p) {
   const t = new Jolt.TransformedShape();
-  t.mShape = p.shape, t.mShapeRotation = p.rotation, t.mShapePositionCOM = rvec(p.centre);
+  t.mShape = p.shape;
+  t.mShapeRotation = p.rotation;
+  t.mShapePositionCOM = rvec(p.centre);
   return t;
 }
 function ask() {
@@ -91,14 +87,12 @@ std::string question(const EngineQuestion& q) {
   if (q.question != Question::time_of_impact)
     return filled(collide, {{"TOLERANCE", tolerance}}) +
            std::string(q.question == Question::distance ? distance : contact);
-  const auto linear = [&](int i) { return q.body(i).motion ? q.body(i).motion->linear : Vec3(Vec3::Zero()); };
-  const Vec3 v = linear(q.a) - linear(q.b);
   return filled(cast,
                 {{"TOLERANCE", tolerance},
                  {"BACK", q.tuned() ? "  settings.mBackFaceModeConvex = settings.mBackFaceModeTriangles = "
                                       "Jolt.EBackFaceMode_CollideWithBackFaces;\n"
                                     : ""},
-                 {"MOVED", fmt::format("[{}, {}, {}]", v.x(), v.y(), v.z())}});
+                 {"MOVED", js_relative_translation(q)}});
 }
 
 EngineSource source(const EngineQuestion& q) {
@@ -110,7 +104,8 @@ EngineSource source(const EngineQuestion& q) {
   EngineSource s;
   s.npm_package = "jolt-physics";
   s.includes = includes;
-  s.code = filled(code, {{"RADIUS", q.tuned() ? "0" : "Math.min(0.05, ...extents)"},
+  s.code = std::string(js_unit) + std::string(js_turn_from_y) +
+           filled(code, {{"RADIUS", q.tuned() ? "0" : "Math.min(0.05, ...extents)"},
                          {"HULL", q.tuned() ? "    hull.mMaxConvexRadius = hull.mHullTolerance = 0;\n"
                                             : "    hull.mHullTolerance = 1e-3;\n"},
                          {"QUESTION", question(q)}});

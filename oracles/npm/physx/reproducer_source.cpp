@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include "core/base/input_error.h"
 #include "oracles/reproducer/engine_source.h"
 #include "oracles/reproducer/source_text.h"
@@ -45,8 +43,7 @@ const support_mapping = (b) => ({
 }[b.shape.type] ?? (() => new px.ConvexGeomSupport(geometry(b), 0)))();
 // Axes of PhysX's shapes are x; those of the bodies are z.
 function pose(b) {
-  const most = Math.max(...b.quaternion.map(Math.abs)), near = b.quaternion.map((c) => c / most), n = Math.hypot(...near);
-  const [x, y, z, w] = near.map((c) => c / n), h = Math.SQRT1_2;
+  const [x, y, z, w] = unit(b), h = Math.SQRT1_2;
   const turned = ["capsule", "cylinder", "cone"].includes(b.shape.type) ? [x + z, y - w, z - x, w + y].map((c) => c * h) : [x, y, z, w];
   return new px.PxTransform(vec(b.at), new px.PxQuat(...turned));
 }
@@ -80,15 +77,10 @@ constexpr std::string_view gjk_proximity = R"(  const r = new px.PxGjkQueryProxi
   return { overlap: found && r.separation <= 0, distance: found ? r.separation : NaN, depth: -r.separation, normal };
 )";
 
-std::string moved(const EngineQuestion& q) {
-  const auto linear = [&](int i) { return q.body(i).motion ? q.body(i).motion->linear : Vec3(Vec3::Zero()); };
-  const Vec3 v = linear(q.a) - linear(q.b);
-  return fmt::format("[{}, {}, {}]", v.x(), v.y(), v.z());
-}
-
 std::string question(const EngineQuestion& q) {
   const bool gjk = q.engine == "physx-gjk";
-  if (q.question == Question::time_of_impact) return filled(gjk ? gjk_sweep : sweep, {{"MOVED", moved(q)}});
+  if (q.question == Question::time_of_impact)
+    return filled(gjk ? gjk_sweep : sweep, {{"MOVED", js_relative_translation(q)}});
   if (q.question == Question::overlap) return std::string(gjk ? gjk_overlap : overlap);
   return filled(gjk_proximity, {{"REACH", q.question == Question::distance ? "1e15" : "0"}});
 }
@@ -103,7 +95,7 @@ EngineSource source(const EngineQuestion& q) {
   EngineSource s;
   s.npm_package = "physx-js-webidl";
   s.includes = includes;
-  s.code = filled(code, {{"QUESTION", question(q)}});
+  s.code = std::string(js_unit) + filled(code, {{"QUESTION", question(q)}});
   return s;
 }
 

@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include "core/base/input_error.h"
 #include "oracles/reproducer/engine_source.h"
 #include "oracles/reproducer/source_text.h"
@@ -13,6 +11,7 @@ await rapier.init();
 
 constexpr std::string_view code =
     R"(const xyz = ([x, y, z]) => ({ x, y, z }), list = ({ x, y, z }) => [x, y, z];
+const xyzw = ([x, y, z, w]) => ({ x, y, z, w });
 const shape = (s) => ({
   sphere: () => new rapier.Ball(s.radius),
   box: () => new rapier.Cuboid(...s.half_extents),
@@ -22,16 +21,8 @@ const shape = (s) => ({
   half_space: () => new rapier.HalfSpace(xyz(s.normal.map((x) => x / Math.hypot(...s.normal)))),
   hull: () => new rapier.ConvexPolyhedron(new Float32Array(s.vertices.flat())),
 }[s.type]());
-// Rapier's capsules, cylinders and cones stand on y, those of the bodies above on z.
-function turn({ shape: s, quaternion }) {
-  const most = Math.max(...quaternion.map(Math.abs)), scaled = quaternion.map((c) => c / most);
-  const [x, y, z, w] = scaled.map((c) => c / Math.hypot(...scaled));
-  if (!["capsule", "cylinder", "cone"].includes(s.type)) return { x, y, z, w };
-  const [i, j, k, r] = [x + w, y + z, z - y, w - x].map((c) => c * Math.SQRT1_2);
-  return { x: i, y: j, z: k, w: r };
-}
 function ask() {
-  const place = (body) => ({ shape: shape(body.shape), t: xyz(body.at), q: turn(body) });
+  const place = (body) => ({ shape: shape(body.shape), t: xyz(body.at), q: xyzw(turn(body)) });
   const p = place(bodies.a), q = place(bodies.b);
 @QUESTION@}
 )";
@@ -58,9 +49,7 @@ std::string question(const EngineQuestion& q) {
   if (q.question == Question::overlap) return std::string(overlap);
   if (q.question == Question::contact) return std::string(contact);
   if (q.question == Question::distance) return std::string(distance);
-  const auto linear = [&](int i) { return q.body(i).motion ? q.body(i).motion->linear : Vec3(Vec3::Zero()); };
-  const Vec3 v = linear(q.a) - linear(q.b);
-  return filled(cast, {{"MOVED", fmt::format("[{}, {}, {}]", v.x(), v.y(), v.z())}});
+  return filled(cast, {{"MOVED", js_relative_translation(q)}});
 }
 
 EngineSource source(const EngineQuestion& q) {
@@ -73,7 +62,7 @@ EngineSource source(const EngineQuestion& q) {
   EngineSource s;
   s.npm_package = "@dimforge/rapier3d-compat";
   s.includes = includes;
-  s.code = filled(code, {{"QUESTION", question(q)}});
+  s.code = std::string(js_unit) + std::string(js_turn_from_y) + filled(code, {{"QUESTION", question(q)}});
   return s;
 }
 
