@@ -169,7 +169,8 @@ int fetch_npm_engines(const std::vector<NpmEngine>& engines) {
 int install_npm_engines(const std::vector<std::string>& names) {
   std::vector<NpmEngine> engines;
   for (const std::string& name : names)
-    std::ranges::copy(npm_engines_matching(name), std::back_inserter(engines));
+    for (const NpmEngine& e : npm_engines_matching(name))
+      if (std::ranges::find(engines, e.name(), &NpmEngine::name) == engines.end()) engines.push_back(e);
   if (const int code = fetch_npm_engines(engines); code != exit_clean) return code;
   for (const NpmEngine& e : engines) {
     const EngineCard card = make_engine(e.name(), {})->card();

@@ -56,7 +56,7 @@ std::optional<Raised> with_listed_tolerance(const EngineCard& card, const Observ
   r.card.sweep_skin = *early - *late;
   Observation unclaimed = o;
   unclaimed.claimed_tolerance = 0;
-  r.answer.claimed_tolerance = *late - tau_of(card, unclaimed, s, 0, 1, scale);
+  r.answer.claimed_tolerance = (*late - tau_of(card, unclaimed, s, 0, 1, scale)) / (1 + l.unit);
   return r;
 }
 

@@ -34,9 +34,11 @@ inline double believed_claim(const EngineCard& card, const Observation& o) {
 inline double pair_roundoff(const EngineCard& card, const Scene& s, int a, int b) {
   return std::max(roundoff_of(card, kind_of(s.shape_of(a))), roundoff_of(card, kind_of(s.shape_of(b))));
 }
-/// For the bodies a and b of the scene, a pair of scale l.
+/// For the bodies a and b of the scene, a pair of scale l. The engine computes with what it claims, a margin
+/// for example, as with the lengths of the bodies, and rounds it too.
 inline double tau_of(const EngineCard& card, const Observation& o, const Scene& s, int a, int b, double l) {
-  return card.tau_factor * pair_roundoff(card, s, a, b) * l + believed_claim(card, o);
+  const double claim = believed_claim(card, o);
+  return card.tau_factor * pair_roundoff(card, s, a, b) * (l + claim) + claim;
 }
 
 // What an engine claims about its settings rather than about one answer (docs/truth.md §3). Zero unless its

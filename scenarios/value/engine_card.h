@@ -38,7 +38,8 @@ struct KindRoundoff {
 };
 
 /// An engine's description of itself: the JSON card of touchstone_engine.h.
-/// τ of an answer = tau_factor · unit_roundoff · L + the answer's claimed_tolerance (docs/truth.md §3).
+/// τ of an answer = tau_factor · unit_roundoff · (L + c) + c, with c its claimed_tolerance (docs/truth.md,
+/// section 3).
 struct EngineCard {
   std::string name;      // catalog name, e.g. "fcl-libccd-tuned"
   std::string library;   // "FCL"

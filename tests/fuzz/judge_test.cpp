@@ -248,6 +248,20 @@ TEST_CASE("only a claimed tolerance widens what is accepted", "[judge]") {
   CHECK(judge_one(spheres(2.5, Question::distance), o).right());
 }
 
+TEST_CASE("an engine's margin is rounded as its other lengths are, though it is larger than the bodies",
+          "[judge]") {
+  // Spheres that touch, of a size at which one unit in the last place of the margin is more than 64 roundings
+  // of L.
+  const double tiny = 0x1p-20, margin = 0.04;
+  Case c = spheres(2 * tiny, Question::contact);
+  for (auto& s : c.scene.shapes) std::get<Sphere>(s).radius = tiny;
+  Observation o = contact(Vec3(1, 0, 0), std::nextafter(margin, 1));
+  o.claimed_tolerance = margin;
+  CHECK(judge_one(c, o).faults.empty());
+  o.depth = margin * (1 + 0x1p-40);
+  CHECK(has(judge_one(c, o), Fault::depth_excess));
+}
+
 TEST_CASE("an error that is right for the scene received is blamed on representation", "[judge]") {
   const Case c = spheres(2.1, Question::overlap);
   Observation o = answered();

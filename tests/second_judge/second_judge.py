@@ -301,7 +301,7 @@ class Judge:
         claim = answer.get("claimed_tolerance") or 0
         if not card.get("source") or not math.isfinite(claim) or claim < 0:
             claim = 0
-        return F(card["unit_roundoff"]) * F(card["tau_factor"]) * scale(scene, a, b) + F(claim)
+        return F(card["unit_roundoff"]) * F(card["tau_factor"]) * (scale(scene, a, b) + F(claim)) + F(claim)
 
     def bounded(self, work):
         """(result, None) or (None, reason), within the CPU seconds granted."""
