@@ -144,7 +144,9 @@ std::string describe_reason(const std::string& reason, const Responses& r,
   const std::size_t gone = count(r, Response::gone), stays = count(r, Response::stays);
   if (reason == fragile_reason)
     return fmt::format("a borderline case: vanishes under {} of {} changes", gone, gone + stays);
-  if (reason == steady_reason) return fmt::format("stays under all {} changes", stays);
+  if (reason == steady_reason)
+    return gone == 0 ? fmt::format("stays under all {} changes", stays)
+                     : fmt::format("stays under {} of {} changes", stays, gone + stays);
   return meaning_of(reason, others).if_gone;
 }
 

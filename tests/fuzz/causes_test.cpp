@@ -870,3 +870,15 @@ TEST_CASE("a title names the most telling change", "[causes]") {
   for (fuzz::Responded& x : r.responses) x.response = fuzz::Response::gone;
   CHECK(fuzz::main_reason(r, FaultStage::depth) == "fragile");
 }
+
+TEST_CASE("a title says that a fault stays under all changes only if it does", "[causes]") {
+  fuzz::Responses r;
+  for (const auto& [name, response] :
+       {std::pair("scale_up", fuzz::Response::stays), std::pair("a_as_cube", fuzz::Response::stays),
+        std::pair("normalize_rotations", fuzz::Response::not_applicable)})
+    r.responses.push_back({name, "", response});
+  CHECK(fuzz::describe_reason("steady", r, {}) == "stays under all 2 changes");
+  r.responses[1].response = fuzz::Response::gone;
+  CHECK(fuzz::main_reason(r, FaultStage::depth) == "steady");
+  CHECK(fuzz::describe_reason("steady", r, {}) == "stays under 1 of 2 changes");
+}
