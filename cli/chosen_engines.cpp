@@ -52,7 +52,8 @@ std::string subject_given(const std::string& subject, const Names& chosen, const
 }  // namespace
 
 void add_engine_choice(CLI::App& app, EngineChoice& to) {
-  app.add_option("--engines", to.engines, "engines to query: names, plug-in paths, pipe:COMMAND, all")
+  app.add_option("--engines", to.engines,
+                 "engines to query: names, libraries (bullet), plug-in paths, pipe:COMMAND, all")
       ->capture_default_str();
   app.add_option("--subject", to.subject,
                  "the engine whose faults decide the exit code (default: the only one queried, or core)");

@@ -140,9 +140,7 @@ int list(const std::string& which, bool json, const WorkerLimits& limits) {
 
 // Returns 0 if every probe is answered rightly or declared unsupported, 3 if nothing is answered.
 int check(const std::string& which, const WorkerLimits& limits) {
-  const auto names = engine_names(which);
-  if (names.size() != 1) throw InputError("--check " + which, "names more than one engine");
-  const EnginePtr engine = make_engine(names[0], limits);
+  const EnginePtr engine = make_engine(engine_name(which), limits);
   print_card(engine->card());
   int right = 0, wrong = 0;
   for (const fuzz::Remark& r : fuzz::conformance(*engine)) {

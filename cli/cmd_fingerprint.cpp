@@ -29,18 +29,12 @@ struct FingerprintOptions {
   WorkerLimits limits;
 };
 
-std::string one_engine(const std::string& text) {
-  const auto names = engine_names(text);
-  if (names.size() != 1) throw InputError("engine " + text, "names more than one engine");
-  return names[0];
-}
-
 EnginePtr make(const FingerprintOptions& o, const std::string& name) {
   return o.of_build.empty() ? make_engine(name, o.limits) : make_engine_of_build(name, o.of_build, o.limits);
 }
 
 fuzz::Fingerprint ask(const FingerprintOptions& o, const std::string& text) {
-  const std::string name = one_engine(text);
+  const std::string name = engine_name(text);
   fuzz::FingerprintConfig config;
   config.make = [&] { return make(o, name); };
   config.cases = o.cases;
@@ -58,7 +52,7 @@ struct Side {
 };
 
 Side side_of(const FingerprintOptions& o, const std::string& text) {
-  if (!text.ends_with(".json")) return {ask(o, text), one_engine(text)};
+  if (!text.ends_with(".json")) return {ask(o, text), engine_name(text)};
   const auto j = load_json(text);
   return {fuzz::fingerprint_from_json(JsonReader(j, text)), ""};
 }

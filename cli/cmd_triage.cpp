@@ -50,7 +50,7 @@ struct TriageSources {
 Foreign foreign_of(const TriageOptions& o) {
   std::vector<std::string> given;
   if (!o.engines.empty()) given = engine_names(o.engines);
-  if (is_foreign(o.subject)) given.push_back(engine_names(o.subject).at(0));
+  if (is_foreign(o.subject)) given.push_back(engine_name(o.subject));
   return foreign_engines(given, o.limits);
 }
 

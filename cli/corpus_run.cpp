@@ -141,7 +141,7 @@ void declare_corpus_run(CLI::App& app, CorpusRunOptions& to) {
   to.limits.query_cpu_seconds = most_case_seconds;
   app.add_option("directory", to.directory, "the corpus")->capture_default_str();
   app.add_option("--engines,--engine", to.choice.engines,
-                 "engines to query: names, plug-in paths, pipe:COMMAND, all")
+                 "engines to query: names, libraries (bullet), plug-in paths, pipe:COMMAND, all")
       ->capture_default_str();
   app.add_option("--subject", to.choice.subject,
                  "the engine whose faults decide the exit code (default: the only one queried, or core)");

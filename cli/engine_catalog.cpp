@@ -89,14 +89,29 @@ std::optional<PluginEngine> find_plugin_engine(const std::string& name) {
   return own.empty() ? std::nullopt : named(name, engines_of(own_engine(own)));
 }
 
-// What a name stands for: "all" for every engine of this build that answers about pairs, a registration for
-// its engine of that name or, if there is none, for all that answer about pairs.
+std::vector<std::string> names_about_pairs(const std::vector<PluginEngine>& engines) {
+  std::vector<std::string> names;
+  for (const PluginEngine& e : engines)
+    if (e.kind == EngineKind::pairs) names.push_back(e.card.name);
+  return names;
+}
+
+// The engines about pairs of a registration or of a library, in this build or from npm.
+std::vector<std::string> engines_of_library(const std::string& name) {
+  if (own_name_of(name) == name) return names_about_pairs(engines_of(own_engine(name)));
+  if (folder_of(name) == name) return names_about_pairs(engines_of_folder(name));
+  std::vector<std::string> names;
+  for (const NpmRow& row : npm_catalog())
+    if (!row.is_broad_phase && row.name.starts_with(name + "-")) names.emplace_back(row.name);
+  return names;
+}
+
+// What a name stands for: "all" for every engine of this build that answers about pairs, an engine's name for
+// it, any other name of a registration or library for its engines that answer about pairs.
 std::vector<std::string> expanded(const std::string& name) {
   if (name == "all") return present_engines(EngineKind::pairs);
-  if (is_foreign(name) || own_name_of(name) != name) return {name};
-  std::vector<std::string> names;
-  for (const PluginEngine& e : engines_of(own_engine(name)))
-    if (e.kind == EngineKind::pairs) names.push_back(e.card.name);
+  if (name.empty() || is_foreign(name) || is_core_row(name) || find_npm_engine(name)) return {name};
+  const std::vector<std::string> names = engines_of_library(name);
   const bool is_engine = std::find(names.begin(), names.end(), name) != names.end();
   return is_engine || names.empty() ? std::vector{name} : names;
 }
@@ -241,6 +256,12 @@ std::vector<std::string> engine_names(const std::string& text) {
     }
   });
   return names;
+}
+
+std::string engine_name(const std::string& text) {
+  const std::vector<std::string> names = engine_names(text);
+  if (names.size() == 1) return names[0];
+  throw InputError("engine " + text, fmt::format("names more than one engine: {}", fmt::join(names, ", ")));
 }
 
 std::vector<std::string> catalogued_names() {

@@ -32,9 +32,12 @@ std::vector<std::string> present_engines(EngineKind kind);
 
 /// Names of `text` ("a,b", "all,jolt", "./libmine.so", "./libmine.so:name", "core-steps@16", a broad phase of
 /// the core or of an oracle, a release of an engine from npm "jolt@0.29.0", an engine that the user
-/// registered or the name of its registration); "all" is every engine of this build that answers more than
-/// candidates. Throws InputError for a name that is unknown or absent.
+/// registered). "all" is every engine of this build that answers more than candidates; a library ("bullet",
+/// "physx") or registration that has no engine of its name stands for such engines of its own. Throws
+/// InputError for a name that is unknown or absent.
 std::vector<std::string> engine_names(const std::string& text);
+/// The engine that `text` names. Throws InputError if there are several.
+std::string engine_name(const std::string& text);
 
 /// True for an engine of Touchstone's core.
 bool is_core_engine(const std::string& name);

@@ -69,7 +69,7 @@ AskedFinding ask_for_finding(FindingArgument o, const WorkerLimits& limits) {
     o.engine = o.key.empty() ? "core" : engine_of(o.key);
   }
   r.engine_name = o.engine;
-  r.engine = make_engine(engine_names(o.engine).at(0), limits);
+  r.engine = make_engine(engine_name(o.engine), limits);
   if (o.key.empty() && stored.starts_with(r.engine->card().name + ".")) o.key = stored;
   // Without a key, relations are tried only if the referee finds no fault, since they mostly show the same
   // error.

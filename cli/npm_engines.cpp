@@ -41,16 +41,19 @@ constexpr NpmRow npm_rows[] = {
      "PhysX, PxGjkQuery: proximity, overlap and sweep; WASM"},
     {"physx-sim", "physx-js-webidl", "2.7.3", "npm/physx/physx.mjs", "sim",
      "PhysX, contact reports of a step; WASM"},
-    {"physx-sap", "physx-js-webidl", "2.7.3", "npm/physx/physx.mjs", "sap", "PhysX's broad phase eSAP, WASM"},
-    {"physx-mbp", "physx-js-webidl", "2.7.3", "npm/physx/physx.mjs", "mbp", "PhysX's broad phase eMBP, WASM"},
-    {"physx-abp", "physx-js-webidl", "2.7.3", "npm/physx/physx.mjs", "abp", "PhysX's broad phase eABP, WASM"},
+    {"physx-sap", "physx-js-webidl", "2.7.3", "npm/physx/physx.mjs", "sap", "PhysX's broad phase eSAP, WASM",
+     true},
+    {"physx-mbp", "physx-js-webidl", "2.7.3", "npm/physx/physx.mjs", "mbp", "PhysX's broad phase eMBP, WASM",
+     true},
+    {"physx-abp", "physx-js-webidl", "2.7.3", "npm/physx/physx.mjs", "abp", "PhysX's broad phase eABP, WASM",
+     true},
     {"havok", "@babylonjs/havok", "1.3.14", "npm/havok/havok.mjs", "",
      "Havok, shape proximity and shape casts; WASM"},
     {"havok-sim", "@babylonjs/havok", "1.3.14", "npm/havok/havok.mjs", "sim",
      "Havok, collision events of a step; WASM"},
     {"cannon", "cannon-es", "0.20.0", "npm/cannon/cannon.mjs", "",
      "cannon-es as shipped: contacts of balls, boxes, hulls and planes; bounding spheres"},
-    {"cannon-sap", "cannon-es", "0.20.0", "npm/cannon/cannon.mjs", "sap", "cannon-es's SAPBroadphase"},
+    {"cannon-sap", "cannon-es", "0.20.0", "npm/cannon/cannon.mjs", "sap", "cannon-es's SAPBroadphase", true},
 };
 
 fs::path script_folder() { return plugin_directory().parent_path() / "share/touchstone/engines"; }

@@ -18,6 +18,7 @@ struct NpmRow {
   std::string_view script;    // in share/touchstone/engines
   std::string_view argument;  // passed to the script after the packages' folder
   std::string_view line;      // description
+  bool is_broad_phase = false;
 };
 std::span<const NpmRow> npm_catalog();
 

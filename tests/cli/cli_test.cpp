@@ -350,6 +350,20 @@ TEST_CASE("all may stand in a list of engines beside others", "[cli]") {
   CHECK(last_line(r.out + r.err).starts_with("exit code 0 is about core"));
 }
 
+TEST_CASE("a library's name stands for its engines", "[cli][optional]") {
+  const Workspace w("library");
+  const Run listed = w.touchstone("engines libccd");
+  if (listed.code == 2) return skip("libccd is not installed");
+  const Run replayed = w.touchstone("replay bullet_through_thin_wall --engines core,libccd");
+  for (const char* name : {"libccd-gjk", "libccd-mpr-tuned"}) {
+    CHECK(listed.out.find(name) != std::string::npos);
+    CHECK(replayed.out.find(name) != std::string::npos);
+  }
+  const Run several = w.touchstone("reproduce bullet_through_thin_wall --engine libccd");
+  CHECK(several.code == 2);
+  CHECK(several.err.find("engine libccd: names more than one engine: libccd-gjk") != std::string::npos);
+}
+
 TEST_CASE("chart and stability refuse an unknown subject", "[cli]") {
   const Workspace w("cli");
   const std::string chart = "chart --from " TS_SOURCE_DIR "/docs/chart.json ";
