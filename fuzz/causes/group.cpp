@@ -177,9 +177,8 @@ class Grouping {
     const bool exact = is_exact(noise(class_of(i).path));
     if (is_usable(i) && (exact || !is_fragile(at(i).first.responses))) return false;
     if (exact && is_usable(leader)) return false;  // what shows when asked alone has another cause
-    return std::ranges::any_of(g.members, [&](std::size_t m) {
-      return at(m).of_class == at(i).of_class || are_silent_alike(m, i);
-    });
+    return std::ranges::any_of(
+        g.members, [&](std::size_t m) { return at(m).of_class == at(i).of_class || are_silent_alike(m, i); });
   }
 
   void join_or_found(std::size_t i) {

@@ -118,6 +118,9 @@ std::optional<Case> add_body_between(const Case& c);
 std::optional<Case> release_static(const Case& c);
 std::optional<Case> leave_groups(const Case& c);
 
+/// By which scenes are scaled up and down.
+inline constexpr double large_factor = 1024, small_factor = 16;
+
 /// What an intervention puts before what the case has: only faults of the latter count.
 struct Added {
   int bodies = 0;
@@ -138,17 +141,31 @@ struct Intervention {
   Added added = {};
   /// The kind of shape that is given as another, if only one is.
   std::optional<ShapeKind> replaces = std::nullopt;
+  /// By what all lengths are multiplied, if they become smaller. What the engine claims must do so too.
+  double shrinks_to = 1;
 };
 inline constexpr auto interventions = std::to_array<Intervention>({
     {"round_to_float", "numbers rounded to float", "needs numbers that floats cannot hold", round_to_float,
      220},
     {"scale_up", "scaled by 1024", "vanishes when scaled by 1024: an absolute tolerance", scale_up, 520},
-    {"scale_down", "scaled by 1/1024", "vanishes when scaled by 1/1024: an absolute tolerance", scale_down,
-     510},
+    {"scale_down",
+     "scaled by 1/1024",
+     "vanishes when scaled by 1/1024: an absolute tolerance",
+     scale_down,
+     510,
+     {},
+     std::nullopt,
+     1.0 / large_factor},
     {"scale_up_little", "scaled by 16", "vanishes when scaled by 16: an absolute tolerance", scale_up_little,
      500},
-    {"scale_down_little", "scaled by 1/16", "vanishes when scaled by 1/16: an absolute tolerance",
-     scale_down_little, 490},
+    {"scale_down_little",
+     "scaled by 1/16",
+     "vanishes when scaled by 1/16: an absolute tolerance",
+     scale_down_little,
+     490,
+     {},
+     std::nullopt,
+     1.0 / small_factor},
     {"move_to_origin", "moved to the origin", "only far from the origin", move_to_origin, 290},
     {"move_away", "moved away from the origin", "only near the origin", move_away, 280},
     {"move_far", "moved to 2^20 times the size from the origin", "only near the origin", move_far, 0},

@@ -168,6 +168,19 @@ Answer judged_as(const Case& c, const EngineCard& card, const CaseObservations& 
   return judged(c, card, observed, s);
 }
 
+// Judged with what the engine claims in proportion to the scene: a fault has not vanished because a claimed
+// length allows it in a scene that is smaller than that.
+Answer judged_shrunk(double to, const Case& c, EngineCard card, const CaseObservations& base,
+                     CaseObservations observed, const Symptom& s) {
+  card.contact_offset *= to;
+  card.sweep_skin *= to;
+  for (std::size_t i = 0; i < observed.answers.size() && i < base.answers.size(); ++i)
+    if (base.answers[i].outcome == Outcome::answered)
+      observed.answers[i].claimed_tolerance =
+          std::min(observed.answers[i].claimed_tolerance, to * base.answers[i].claimed_tolerance);
+  return judged(c, card, observed, s);
+}
+
 // `base`: the engine's own answer; null for a symptom that needs a comparison.
 void ask_others(const Case& c, const Symptom& s, const EngineCard& card, const CaseObservations* base,
                 const std::vector<OtherEngine>& others, EnginePool& pool, Table& table) {
@@ -211,17 +224,19 @@ namespace {
 struct Forms {
   std::vector<Case> cases;
   std::vector<Part> parts;
+  std::vector<double> shrunk_to;
   std::vector<std::optional<std::size_t>> of;  // each intervention's place in `cases`
 };
 
 Forms forms_of(const Case& c) {
-  Forms f{{c}, {Part()}, {}};
+  Forms f{{c}, {Part()}, {1}, {}};
   for (const Intervention& i : interventions) {
     auto form = changed(i, c);
     f.of.push_back(form ? std::optional(f.cases.size()) : std::nullopt);
     if (!form) continue;
     f.cases.push_back(std::move(*form));
     f.parts.push_back(Part::of(c, i.added));
+    f.shrunk_to.push_back(i.shrinks_to);
   }
   return f;
 }
@@ -239,7 +254,10 @@ Responses respond(const Case& c, const Symptom& symptom, const std::string& engi
   else
     observed = e->run(forms.cases);
   for (std::size_t i = 0; i < observed.size(); ++i)
-    answers.push_back(judged(forms.cases[i], e->card(), observed[i], symptom, forms.parts[i]));
+    answers.push_back(
+        forms.shrunk_to[i] < 1
+            ? judged_shrunk(forms.shrunk_to[i], forms.cases[i], e->card(), observed[0], observed[i], symptom)
+            : judged(forms.cases[i], e->card(), observed[i], symptom, forms.parts[i]));
   Responses r;
   r.shown = answers[0].response == Response::stays;
   r.error_in_l = answers[0].error_in_l;

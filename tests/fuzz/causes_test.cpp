@@ -436,6 +436,59 @@ TEST_CASE("another engine that only claims more for the same wrong answer does n
   CHECK(r.responses.back().response == fuzz::Response::stays);
 }
 
+namespace {
+
+// The core's answers, changed, from an engine that documents what its card and answers claim.
+class Altered final : public Engine {
+ public:
+  Altered(void (*change)(Observation&), double contact_offset) : change_(change), card_(core_.card()) {
+    card_.source = "the test";
+    card_.contact_offset = contact_offset;
+  }
+  const EngineCard& card() const override { return card_; }
+  std::vector<CaseObservations> run(std::span<const Case> cases) override {
+    auto all = core_.run(cases);
+    for (CaseObservations& of_case : all)
+      for (Observation& o : of_case.answers) change_(o);
+    return all;
+  }
+
+ private:
+  CoreEngine core_;
+  void (*change_)(Observation&);
+  EngineCard card_;
+};
+
+}  // namespace
+
+TEST_CASE("a fault does not vanish because a claimed length allows it in a smaller scene", "[causes]") {
+  const auto response = [](void (*change)(Observation&), double offset, const Case& c,
+                           const fuzz::Symptom& s) {
+    fuzz::EnginePool pool(
+        [=](const std::string&) -> EnginePtr { return std::make_unique<Altered>(change, offset); });
+    const auto r = fuzz::respond(c, s, "altered", {}, pool);
+    CHECK(r.shown);
+    const auto found =
+        std::ranges::find(r.responses, std::string("scale_down"), &fuzz::Responded::intervention);
+    REQUIRE(found != r.responses.end());
+    return found->response;
+  };
+  // A hundredth too far; 1/1024 of that is less than the claim.
+  const Case apart = pair_case(Box{Vec3(0.5, 0.5, 0.5)}, Sphere{0.5}, Vec3(2, 0, 0), Question::distance);
+  const auto too_far = [](Observation& o) {
+    if (o.distance) *o.distance *= 1.01;
+    o.claimed_tolerance = 1e-3;
+  };
+  CHECK(response(too_far, 0, apart, {Question::distance, FaultStage::distance, ""}) == fuzz::Response::stays);
+  // 1 apart; 1/1024 is less than the contact offset.
+  const Case asked = pair_case(Box{Vec3(0.5, 0.5, 0.5)}, Sphere{0.5}, Vec3(2, 0, 0), Question::overlap);
+  const auto overlapping = [](Observation& o) {
+    if (o.overlap) o.overlap = true;
+  };
+  CHECK(response(overlapping, 0.01, asked, {Question::overlap, FaultStage::verdict, "ghost"}) ==
+        fuzz::Response::stays);
+}
+
 TEST_CASE("causes of a campaign: every key in one cause, the same for any number of jobs", "[causes]") {
   const auto result = campaign({"distance_margin", "depth_halved", "witness_swapped", "overlap_always"}, 200,
                                "separate,deep");

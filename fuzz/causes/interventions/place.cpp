@@ -9,7 +9,6 @@
 namespace touchstone::fuzz {
 namespace {
 
-constexpr double factor = 1024, small_factor = 16;
 constexpr double very_far = 0x1p20;  // in sizes: doubles keep 32 bits of the size, floats few
 
 std::optional<Case> scaled(const Case& c, double by) {
@@ -40,8 +39,8 @@ const Vec3& first_position(const Case& c) {
 
 }  // namespace
 
-std::optional<Case> scale_up(const Case& c) { return scaled(c, factor); }
-std::optional<Case> scale_down(const Case& c) { return scaled(c, 1 / factor); }
+std::optional<Case> scale_up(const Case& c) { return scaled(c, large_factor); }
+std::optional<Case> scale_down(const Case& c) { return scaled(c, 1 / large_factor); }
 std::optional<Case> scale_up_little(const Case& c) { return scaled(c, small_factor); }
 std::optional<Case> scale_down_little(const Case& c) { return scaled(c, 1 / small_factor); }
 
