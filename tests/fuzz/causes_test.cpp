@@ -3,7 +3,9 @@
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <functional>
 #include <set>
+#include <utility>
 
 #include "fuzz/ask/evidence.h"
 #include "fuzz/campaign/campaign.h"
@@ -401,47 +403,11 @@ TEST_CASE("the response tells what a lie depends on", "[causes]") {
 
 namespace {
 
-// Every distance is 1e-3 too large; claims that tolerance or another.
-class Claiming final : public Engine {
- public:
-  explicit Claiming(double claim) : claim_(claim), card_(core_.card()) { card_.source = "the test"; }
-  const EngineCard& card() const override { return card_; }
-  std::vector<CaseObservations> run(std::span<const Case> cases) override {
-    auto all = core_.run(cases);
-    for (CaseObservations& of_case : all)
-      for (Observation& o : of_case.answers) {
-        if (o.distance) *o.distance += 1e-3;
-        o.claimed_tolerance = claim_;
-      }
-    return all;
-  }
-
- private:
-  CoreEngine core_;
-  double claim_;
-  EngineCard card_;
-};
-
-}  // namespace
-
-TEST_CASE("another engine that only claims more for the same wrong answer does not repair it", "[causes]") {
-  fuzz::EnginePool pool([](const std::string& name) -> EnginePtr {
-    return std::make_unique<Claiming>(name == "generous" ? 1e-2 : 0);
-  });
-  const Case c = pair_case(Box{Vec3(0.5, 0.5, 0.5)}, Sphere{0.5}, Vec3(2, 0, 0), Question::distance);
-  const fuzz::Symptom off{Question::distance, FaultStage::distance, ""};
-  const auto r = fuzz::respond(c, off, "strict", {{"looser", "a claim of 1e-2", "", "generous"}}, pool);
-  CHECK(r.shown);
-  REQUIRE(r.responses.back().intervention == "looser");
-  CHECK(r.responses.back().response == fuzz::Response::stays);
-}
-
-namespace {
-
 // The core's answers, changed, from an engine that documents what its card and answers claim.
 class Altered final : public Engine {
  public:
-  Altered(void (*change)(Observation&), double contact_offset) : change_(change), card_(core_.card()) {
+  explicit Altered(std::function<void(Observation&)> change, double contact_offset = 0)
+      : change_(std::move(change)), card_(core_.card()) {
     card_.source = "the test";
     card_.contact_offset = contact_offset;
   }
@@ -455,11 +421,26 @@ class Altered final : public Engine {
 
  private:
   CoreEngine core_;
-  void (*change_)(Observation&);
+  std::function<void(Observation&)> change_;
   EngineCard card_;
 };
 
 }  // namespace
+
+TEST_CASE("another engine that only claims more for the same wrong answer does not repair it", "[causes]") {
+  fuzz::EnginePool pool([](const std::string& name) -> EnginePtr {
+    return std::make_unique<Altered>([claim = name == "generous" ? 1e-2 : 0](Observation& o) {
+      if (o.distance) *o.distance += 1e-3;
+      o.claimed_tolerance = claim;
+    });
+  });
+  const Case c = pair_case(Box{Vec3(0.5, 0.5, 0.5)}, Sphere{0.5}, Vec3(2, 0, 0), Question::distance);
+  const fuzz::Symptom off{Question::distance, FaultStage::distance, ""};
+  const auto r = fuzz::respond(c, off, "strict", {{"looser", "a claim of 1e-2", "", "generous"}}, pool);
+  CHECK(r.shown);
+  REQUIRE(r.responses.back().intervention == "looser");
+  CHECK(r.responses.back().response == fuzz::Response::stays);
+}
 
 TEST_CASE("a fault does not vanish because a claimed length allows it in a smaller scene", "[causes]") {
   const auto response = [](void (*change)(Observation&), double offset, const Case& c,
