@@ -41,18 +41,16 @@ std::string subject_given(const std::string& subject, const Names& chosen, const
   if (!is_foreign(subject) && !is_catalogued(subject))
     if (const std::string name = named_on_card(subject, chosen, limits); !name.empty()) return name;
   try {
-    const Names names = engine_names(subject);
-    if (names.size() == 1) return names[0];
+    return engine_name(subject);
   } catch (const InputError& e) {
     throw InputError("--subject", e.what());
   }
-  throw InputError("--subject", subject + " names more than one engine");
 }
 
 }  // namespace
 
-void add_engine_choice(CLI::App& app, EngineChoice& to) {
-  app.add_option("--engines", to.engines,
+void add_engine_choice(CLI::App& app, EngineChoice& to, const std::string& names) {
+  app.add_option(names, to.engines,
                  "engines to query: names, libraries (bullet), plug-in paths, pipe:COMMAND, all")
       ->capture_default_str();
   app.add_option("--subject", to.subject,

@@ -15,8 +15,8 @@ namespace touchstone::cli {
 struct EngineChoice {
   std::string engines = "all", subject;  // as given; an empty subject is chosen by the rule below
 };
-/// --engines and --subject.
-void add_engine_choice(CLI::App& app, EngineChoice& to);
+/// --engines, by the given names of the option, and --subject.
+void add_engine_choice(CLI::App& app, EngineChoice& to, const std::string& names = "--engines");
 
 struct ChosenEngines {
   std::vector<std::string> names;  // as make_engine takes them; the subject is among them

@@ -140,11 +140,7 @@ int verdict(const CorpusColumn& subject, bool json) {
 void declare_corpus_run(CLI::App& app, CorpusRunOptions& to) {
   to.limits.query_cpu_seconds = most_case_seconds;
   app.add_option("directory", to.directory, "the corpus")->capture_default_str();
-  app.add_option("--engines,--engine", to.choice.engines,
-                 "engines to query: names, libraries (bullet), plug-in paths, pipe:COMMAND, all")
-      ->capture_default_str();
-  app.add_option("--subject", to.choice.subject,
-                 "the engine whose faults decide the exit code (default: the only one queried, or core)");
+  add_engine_choice(app, to.choice, "--engines,--engine");
   app.add_option("--only", to.only, "only cases whose ids begin with this");
   app.add_flag("--all", to.all, "show every mechanism, not only the ten with the most wrong answers");
   app.add_option(

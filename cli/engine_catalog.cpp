@@ -110,7 +110,7 @@ std::vector<std::string> engines_of_library(const std::string& name) {
 // it, any other name of a registration or library for its engines that answer about pairs.
 std::vector<std::string> expanded(const std::string& name) {
   if (name == "all") return present_engines(EngineKind::pairs);
-  if (name.empty() || is_foreign(name) || is_core_row(name) || find_npm_engine(name)) return {name};
+  if (is_foreign(name) || find_npm_engine(name)) return {name};
   const std::vector<std::string> names = engines_of_library(name);
   const bool is_engine = std::find(names.begin(), names.end(), name) != names.end();
   return is_engine || names.empty() ? std::vector{name} : names;

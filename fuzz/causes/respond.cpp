@@ -158,27 +158,32 @@ void ask_afresh(const Case& c, const Symptom& s, const std::string& engine, Engi
   table.add(other_memory.name, other_memory.change, again);
 }
 
+// Replaces each answer's claimed tolerance by claim(its own, that of the engine's answer to the unchanged
+// case).
+template <class F>
+CaseObservations with_claims(CaseObservations observed, const CaseObservations& base, F claim) {
+  for (std::size_t i = 0; i < observed.answers.size() && i < base.answers.size(); ++i)
+    if (base.answers[i].outcome == Outcome::answered)
+      observed.answers[i].claimed_tolerance =
+          claim(observed.answers[i].claimed_tolerance, base.answers[i].claimed_tolerance);
+  return observed;
+}
+
 // Judged as an answer of the engine concerned: a sibling that claims more for the same wrong answer does not
 // repair it.
 Answer judged_as(const Case& c, const EngineCard& card, const CaseObservations& base,
-                 CaseObservations observed, const Symptom& s) {
-  for (std::size_t i = 0; i < observed.answers.size() && i < base.answers.size(); ++i)
-    if (base.answers[i].outcome == Outcome::answered)
-      observed.answers[i].claimed_tolerance = base.answers[i].claimed_tolerance;
-  return judged(c, card, observed, s);
+                 const CaseObservations& observed, const Symptom& s) {
+  return judged(c, card, with_claims(observed, base, [](double, double of_base) { return of_base; }), s);
 }
 
 // Judged with what the engine claims in proportion to the scene: a fault has not vanished because a claimed
 // length allows it in a scene that is smaller than that.
 Answer judged_shrunk(double to, const Case& c, EngineCard card, const CaseObservations& base,
-                     CaseObservations observed, const Symptom& s) {
+                     const CaseObservations& observed, const Symptom& s) {
   card.contact_offset *= to;
   card.sweep_skin *= to;
-  for (std::size_t i = 0; i < observed.answers.size() && i < base.answers.size(); ++i)
-    if (base.answers[i].outcome == Outcome::answered)
-      observed.answers[i].claimed_tolerance =
-          std::min(observed.answers[i].claimed_tolerance, to * base.answers[i].claimed_tolerance);
-  return judged(c, card, observed, s);
+  const auto shrunk = [to](double own, double of_base) { return std::min(own, to * of_base); };
+  return judged(c, card, with_claims(observed, base, shrunk), s);
 }
 
 // `base`: the engine's own answer; null for a symptom that needs a comparison.
