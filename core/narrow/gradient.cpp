@@ -27,8 +27,8 @@ DistanceGradients gradients(const PlacedShape& a, const PlacedShape& b, const Ve
   r.outcome = s.outcome;
   if (s.outcome != Outcome::answered) return r;
   const WideVec from = (about - a.pose.translation).cast<Wide>();
-  for (const WideVec& p : narrow::manifold_of(a, b, s))
-    r.corners.push_back({s.normal.cast<double>(), (p - from).cross(s.normal).cast<double>()});
+  for (const narrow::ManifoldVertex& v : narrow::manifold_of(a, b, s))
+    r.corners.push_back({s.normal.cast<double>(), (v.p - from).cross(s.normal).cast<double>()});
   const bool meets = s.gap <= tolerance::narrow_contact_factor * s.size;
   if (r.corners.size() > 1)
     r.unique = false;

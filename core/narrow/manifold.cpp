@@ -8,7 +8,6 @@
 namespace touchstone::narrow {
 namespace {
 
-using Points = std::vector<WideVec>;
 using Plane2 = Eigen::Matrix<Wide, 2, 1>;
 using Corner = outline::Corner<Wide>;
 using Outline = outline::Corners<Wide>;
@@ -19,12 +18,17 @@ struct Basis {
   Plane2 flatten(const WideVec& p) const { return {u.dot(p), v.dot(p)}; }
 };
 
+struct FacePoint {
+  WideVec p;
+  std::uint32_t id;
+};
+
 // Collects the corners that lie in the support face to within the tolerance.
 struct FacePoints {
   const convex::FaceQuery<Wide>& at;
-  Points points;
-  void add(const WideVec& p, std::uint32_t) {
-    if (at.d.dot(p) >= at.top - at.limit) points.push_back(p);
+  std::vector<FacePoint> points;
+  void add(const WideVec& p, std::uint32_t id) {
+    if (at.d.dot(p) >= at.top - at.limit) points.push_back({p, id});
   }
   void add_certain(const WideVec& p, std::uint32_t id) { add(p, id); }
   void add_many(const WideVec& p, std::uint32_t id) { add(p, id); }
@@ -39,64 +43,73 @@ void drop_repeats(Outline& p, Wide tolerance) {
   p = kept;
 }
 
-// The support face in the plane's coordinates.
-Outline flattened(const Points& face, const Basis& basis, const WideVec& origin) {
+// The corners of the support face along n, in the frame of the core's placement.
+std::vector<FacePoint> face_of(const ConvexCore<Wide>& c, const WideVec& n, Wide tolerance) {
+  const WideVec d = c.frame.rotation.transpose() * n;
+  const convex::FaceQuery<Wide> at{d, d.dot(support_local<Wide>(c, d)), tolerance, tolerance};
+  FacePoints corners{at, {}};
+  on_core(c, [&](const auto& core) { core.face_corners(at, corners); });
+  for (FacePoint& x : corners.points) x.p = c.frame.rotation * x.p + c.frame.translation + c.radius * n;
+  return corners.points;
+}
+
+// The support face in the plane's coordinates, in convex order about n.
+Outline face_outline(const ConvexCore<Wide>& c, const WideVec& n, Wide tolerance, const Basis& basis,
+                     const WideVec& origin) {
   Outline r;
-  for (const WideVec& p : face) {
-    const Plane2 q = basis.flatten(p - origin);
-    r.add({q.x(), q.y(), 0, static_cast<std::uint32_t>(r.size), 0});
+  for (const FacePoint& x : face_of(c, n, tolerance)) {
+    const Plane2 q = basis.flatten(x.p - origin);
+    r.add({q.x(), q.y(), 0, x.id, 0});
   }
+  outline::convex_order(r, tolerance);
   return r;
 }
 
 // Crossing segments share a point that the caller has: the deepest.
 Outline intersection(Outline a, Outline b, Wide tolerance) {
   if (a.size == 2 && b.size == 2) {
+    if (a[1].id < a[0].id) std::swap(a[0], a[1]);  // the first end keeps its id
     const outline::EdgePair<Wide> pair(a, b);
-    return pair.is_collinear(tolerance) ? pair.common(0) : Outline();
+    return pair.is_collinear(tolerance) ? pair.common(outline::id_of_edges(a, b)) : Outline();
   }
-  if (a.size > 2 && b.size == 2) std::swap(a, b);
-  outline::clip(a, b, tolerance, false);
+  const bool exchanged = a.size > 2 && b.size == 2;
+  if (exchanged) std::swap(a, b);
+  outline::clip(a, b, tolerance, exchanged);
   return a;
+}
+
+// Of the point where the outlines meet, if it is the only one.
+std::uint32_t id_of_middle(const Outline& a, const Outline& b) {
+  if (a.size == 1 && b.size > 2) return a[0].id | outline::of_a;
+  if (a.size > 2 && b.size == 1) return b[0].id | outline::of_b;
+  return a.size == 2 && b.size == 2 ? outline::id_of_edges(a, b) : 0;
 }
 
 }  // namespace
 
-std::vector<WideVec> support_face(const ConvexCore<Wide>& c, const WideVec& n, Wide tolerance) {
-  const WideVec d = c.frame.rotation.transpose() * n;
-  const convex::FaceQuery<Wide> at{d, d.dot(support_local<Wide>(c, d)), tolerance, tolerance};
-  FacePoints corners{at, {}};
-  on_core(c, [&](const auto& core) { core.face_corners(at, corners); });
-  Points face;
-  for (const WideVec& p : corners.points)
-    face.push_back(c.frame.rotation * p + c.frame.translation + c.radius * n);
-  Outline flat = flattened(face, Basis(n), WideVec::Zero());
-  outline::convex_order(flat, tolerance);
-  Points ordered;
-  for (const Corner& k : flat) ordered.push_back(face[k.id]);
-  return ordered;
-}
-
-std::vector<WideVec> contact_points(const ConvexCore<Wide>& a, const ConvexCore<Wide>* b,
-                                    const Separation& s) {
+std::vector<ManifoldVertex> contact_points(const ConvexCore<Wide>& a, const ConvexCore<Wide>* b,
+                                           const Separation& s) {
   const Wide tolerance = tolerance::manifold_face_factor * s.size;
   const WideVec &n = s.normal, middle = (s.a + s.b) / 2;
   const Basis basis(n);
-  Outline region = flattened(support_face(a, n, tolerance), basis, middle);
+  Outline region = face_outline(a, n, tolerance, basis, middle);
+  std::uint32_t id = region[0].id | outline::of_a;
   if (b) {
-    Outline other = flattened(support_face(*b, -n, tolerance), basis, middle);
-    std::reverse(other.begin(), other.end());  // counter-clockwise about n as well
-    if (region.size < 2 || other.size < 2) return {middle};
+    const Outline other = face_outline(*b, -n, tolerance, basis, middle);
+    id = id_of_middle(region, other);
+    if (region.size < 2 || other.size < 2) return {{middle, id}};
     region = intersection(region, other, tolerance);
+  } else {
+    for (Corner& c : region) c.id |= outline::of_a;
   }
   drop_repeats(region, tolerance);
-  if (region.size == 0) return {middle};
+  if (region.size == 0) return {{middle, id}};
   // Picks points evenly when there are more than the manifold holds.
-  Points r;
+  std::vector<ManifoldVertex> r;
   const int kept = std::min(region.size, static_cast<int>(Manifold::capacity));
   for (int i = 0; i < kept; ++i) {
     const Corner& p = region[i * region.size / kept];
-    r.push_back(middle + basis.u * p.x + basis.v * p.y);
+    r.push_back({middle + basis.u * p.x + basis.v * p.y, p.id});
   }
   return r;
 }

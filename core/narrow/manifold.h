@@ -13,12 +13,14 @@
 
 namespace touchstone::narrow {
 
-/// Vertices of the support face of core ⊕ ball along the unit vector n, counter-clockwise about n; one, two
-/// or more points.
-std::vector<WideVec> support_face(const ConvexCore<Wide>& c, const WideVec& n, Wide tolerance);
+/// A point of a manifold. `id` names its features (filtered/patch.h); 0: none.
+struct ManifoldVertex {
+  WideVec p;
+  std::uint32_t id;
+};
 
 /// `b` null: a half-space. Its support face is unbounded, so the face of `a` is the manifold.
-std::vector<WideVec> contact_points(const ConvexCore<Wide>& a, const ConvexCore<Wide>* b,
-                                    const Separation& s);
+std::vector<ManifoldVertex> contact_points(const ConvexCore<Wide>& a, const ConvexCore<Wide>* b,
+                                           const Separation& s);
 
 }  // namespace touchstone::narrow

@@ -47,7 +47,8 @@ bool fill_manifold(const FastAnswer<R>& f, const PlacedShape& a, const PlacedSha
                                  c.normal, s.gap, c.has_middle ? &c.middle : nullptr);
   for (int i = 0; i < patch.size; ++i) {
     const auto& p = patch.point[static_cast<std::size_t>(i)];
-    out.push_back({world<R>(c.at.a_to_world * p.p, origin), static_cast<double>(p.depth), p.id});
+    out.push_back({world<R>(c.at.a_to_world * p.p, origin), static_cast<double>(p.depth),
+                   f.mirrored ? narrow::outline::mirrored_id(p.id) : p.id});
   }
   return patch.size > 0;
 }

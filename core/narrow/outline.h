@@ -80,19 +80,32 @@ R turn(const Corner<R>& a, const Corner<R>& b, const Corner<R>& c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
+/// By x, and by y where the first or the last points have the same x within the tolerance: the chain below
+/// begins and ends at a corner.
+template <class R>
+void sort_for_chain(Corners<R>& p, R tolerance) {
+  std::sort(p.begin(), p.end(), [](const Corner<R>& a, const Corner<R>& b) {
+    return a.x != b.x ? a.x < b.x : (a.y != b.y ? a.y < b.y : a.id < b.id);
+  });
+  const auto upwards = [](const Corner<R>& a, const Corner<R>& b) {
+    return a.y != b.y ? a.y < b.y : (a.x != b.x ? a.x < b.x : a.id < b.id);
+  };
+  const R first = p[0].x + tolerance, last = p[p.size - 1].x - tolerance;
+  std::sort(p.begin(), std::find_if(p.begin(), p.end(), [&](const Corner<R>& c) { return c.x > first; }),
+            upwards);
+  std::sort(std::find_if(p.begin(), p.end(), [&](const Corner<R>& c) { return c.x >= last; }), p.end(),
+            upwards);
+}
+
 /// Andrew's monotone chain, counter-clockwise; points on edges (within tolerance) are dropped.
 template <class R>
 void convex_order(Corners<R>& p, R tolerance) {
   if (p.size < 2) return;
-  const auto before = [](const Corner<R>& a, const Corner<R>& b) {
-    return a.x != b.x ? a.x < b.x : (a.y != b.y ? a.y < b.y : a.id < b.id);
-  };
+  sort_for_chain(p, tolerance);
   if (p.size == 2) {
-    if (before(p[1], p[0])) std::swap(p[0], p[1]);
     if (abs(p[0].x - p[1].x) + abs(p[0].y - p[1].y) <= tolerance) p.size = 1;
     return;
   }
-  std::sort(p.begin(), p.end(), before);
   Corners<R> h;
   Items<R, int, 2 * Corners<R>::capacity + 2> chain;
   make_room(chain, 2 * p.size + 2);
@@ -124,6 +137,20 @@ inline constexpr std::uint32_t of_a = 0x20000000u, of_b = 0x80000000u, crossing 
 /// Independent of the order of the ends; 15 bits, without collisions among the corners of a box or a rim.
 inline std::uint32_t edge_id(std::uint32_t a, std::uint32_t b) {
   return (std::min(a, b) * 181 + std::max(a, b)) & 0x7fffu;
+}
+
+/// Id of the point where two edges cross, of A and of B.
+template <class R>
+std::uint32_t id_of_edges(const Corners<R>& a, const Corners<R>& b) {
+  return crossing | edge_id(a[0].id, a[1].id) << 15 | edge_id(b[0].id, b[1].id);
+}
+
+/// The id of the same point with A and B exchanged.
+inline std::uint32_t mirrored_id(std::uint32_t id) {
+  constexpr std::uint32_t edge = 0x7fffu;
+  if (id & crossing) return crossing | (id & edge) << 15 | (id >> 15 & edge);
+  const std::uint32_t corner = id & ~(of_a | of_b);
+  return corner | (id & of_a ? of_b : 0u) | (id & of_b ? of_a : 0u);
 }
 
 /// Id of the point that the edge of the incident outline and edge i of the window share.

@@ -4,6 +4,7 @@
 #include "core/narrow/convex_pair.h"
 #include "core/narrow/manifold.h"
 #include "core/narrow/mesh.h"
+#include "core/narrow/outline.h"
 #include "core/narrow/pair_table.h"
 #include "core/narrow/solid.h"
 #include "core/narrow/unit_scale.h"
@@ -27,7 +28,7 @@ Vec3 world(const WideVec& p, const PlacedShape& a) {
   return (p + a.pose.translation.cast<Wide>()).cast<double>();
 }
 
-std::vector<WideVec> unit_manifold(const PlacedShape& a, const PlacedShape& b, const Separation& s) {
+std::vector<ManifoldVertex> unit_manifold(const PlacedShape& a, const PlacedShape& b, const Separation& s) {
   const WideFrame fa = wide_frame(a.pose), fb = wide_frame(b.pose);
   const WideFrame la{fa.rotation, WideVec::Zero()}, lb{fb.rotation, fb.translation - fa.translation};
   if (is_bounded_convex(*a.shape) && is_bounded_convex(*b.shape)) {
@@ -37,10 +38,12 @@ std::vector<WideVec> unit_manifold(const PlacedShape& a, const PlacedShape& b, c
   if (is_bounded_convex(*a.shape) && kind_of(*b.shape) == ShapeKind::half_space)
     return narrow::contact_points(narrow::make_core(a, la), nullptr, s);
   if (is_bounded_convex(*b.shape) && kind_of(*a.shape) == ShapeKind::half_space) {
-    Separation t = narrow::mirrored(s);
-    return narrow::contact_points(narrow::make_core(b, lb), nullptr, t);
+    const Separation t = narrow::mirrored(s);
+    auto points = narrow::contact_points(narrow::make_core(b, lb), nullptr, t);
+    for (ManifoldVertex& v : points) v.id = outline::mirrored_id(v.id);
+    return points;
   }
-  return {WideVec((s.a + s.b) / 2)};
+  return {{WideVec((s.a + s.b) / 2), 0}};
 }
 
 Separation rescaled(Separation s, int exponent) {
@@ -52,11 +55,11 @@ Separation rescaled(Separation s, int exponent) {
 
 }  // namespace
 
-std::vector<WideVec> manifold_of(const PlacedShape& a, const PlacedShape& b, const Separation& s) {
+std::vector<ManifoldVertex> manifold_of(const PlacedShape& a, const PlacedShape& b, const Separation& s) {
   if (const int e = unit_scale(a, b); e != 0) {
     const ScaledPair<PlacedShape> pair(a, b, e);
-    std::vector<WideVec> points = unit_manifold(pair.a, pair.b, rescaled(s, e));
-    for (WideVec& p : points) p = scaled(p, -e);
+    std::vector<ManifoldVertex> points = unit_manifold(pair.a, pair.b, rescaled(s, e));
+    for (ManifoldVertex& v : points) v.p = scaled(v.p, -e);
     return points;
   }
   return unit_manifold(a, b, s);
@@ -95,8 +98,7 @@ ContactAnswer wide_contact(const PlacedShape& a, const PlacedShape& b) {
   r.normal = s.normal.cast<double>();
   r.depth = static_cast<double>(std::max<Wide>(0, -s.gap));
   r.regret_bound = static_cast<double>(s.slack) + r.error_bound;
-  for (const WideVec& p : manifold_of(a, b, s))
-    r.manifold.push_back({world(p, a), r.depth, static_cast<std::uint32_t>(r.manifold.size())});
+  for (const ManifoldVertex& v : manifold_of(a, b, s)) r.manifold.push_back({world(v.p, a), r.depth, v.id});
   return r;
 }
 

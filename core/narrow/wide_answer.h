@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "core/narrow/manifold.h"
 #include "core/narrow/narrow_phase.h"
 
 namespace touchstone::narrow {
@@ -18,6 +19,6 @@ DistanceAnswer distance_of(const Separation& s, const PlacedShape& a);
 
 /// The points of the manifold of a separation of any sign: for bodies apart, half-way between the witness
 /// points. Coordinates are relative to A's translation.
-std::vector<WideVec> manifold_of(const PlacedShape& a, const PlacedShape& b, const Separation& s);
+std::vector<ManifoldVertex> manifold_of(const PlacedShape& a, const PlacedShape& b, const Separation& s);
 
 }  // namespace touchstone::narrow

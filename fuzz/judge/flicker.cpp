@@ -218,8 +218,14 @@ Points moved(const Carried& way, Points all) {
   return all;
 }
 
-referee::ContactRegion region(const Pair& p, const AnsweredFrame& f, double slack) {
-  return referee::contact_region(f.truth.placed(0, p.q.a), f.truth.placed(0, p.q.b), *f.answer.normal, slack);
+/// How far below the support planes corners of A and of B belong to the contact.
+struct Slacks {
+  double a, b;
+};
+
+referee::ContactRegion region(const Pair& p, const AnsweredFrame& f, const Slacks& slack) {
+  return referee::contact_region(f.truth.placed(0, p.q.a), f.truth.placed(0, p.q.b), *f.answer.normal,
+                                 slack.a, slack.b);
 }
 
 bool keeps_corners(const referee::ContactRegion& was, const referee::ContactRegion& is) {
@@ -228,8 +234,9 @@ bool keeps_corners(const referee::ContactRegion& was, const referee::ContactRegi
 }
 
 // From what lies in one plane to all that lies deeper than the other body's plane, and just beyond each
-// stated point: one that comes or goes with a corner of the bodies is no flicker.
-std::vector<double> region_slacks(const Pair& p) {
+// stated point: one that comes or goes with a corner of the bodies is no flicker. Of both bodies alike, or
+// against the face of one.
+std::vector<Slacks> region_slacks(const Pair& p) {
   constexpr int levels = 8;
   const double least = referee::contact_slack_factor * p.scale();
   const double most = std::max(2 * least, p.deepest());
@@ -242,14 +249,17 @@ std::vector<double> region_slacks(const Pair& p) {
       if (const double below = *f->answer.depth - m.depth; below > least && below < most)
         slacks.push_back(below + least / 2);
   }
-  return slacks;
+  std::vector<Slacks> all;
+  for (const double s : slacks)
+    for (const Slacks& both : {Slacks{s, s}, Slacks{least, s}, Slacks{s, least}}) all.push_back(both);
+  return all;
 }
 
 // How far the corners of the contact region move, seen in each of the three ways: the most over the regions
 // that engines may mean. Empty if one of these regions gets other corners.
 std::optional<std::array<double, 3>> moved_corners(const Pair& p) {
   std::array<double, 3> moved_most{};
-  for (const double slack : region_slacks(p)) {
+  for (const Slacks& slack : region_slacks(p)) {
     const referee::ContactRegion was = region(p, p.before, slack), is = region(p, p.after, slack);
     if (!keeps_corners(was, is)) return std::nullopt;
     for (std::size_t k = 0; k < moved_most.size(); ++k)

@@ -63,11 +63,6 @@ Spots<R> face_spots(const Corners<R>& window, Corners<R> subject, bool window_is
   return r;
 }
 
-template <class R>
-std::uint32_t id_of_edges(const Corners<R>& a, const Corners<R>& b) {
-  return outline::crossing | outline::edge_id(a[0].id, a[1].id) << 15 | outline::edge_id(b[0].id, b[1].id);
-}
-
 /// Two edges of bodies rounded by balls, at most one radius of which is 0: the ends of what they have in
 /// common along A. `beside` is the largest distance of the two across the plane. A ball's surface `s` beside
 /// its centre is s²/(r + √(r² − s²)) below its top.
@@ -75,7 +70,7 @@ template <class R>
 Spots<R> edge_spots(Corners<R> a, const Corners<R>& b, R radius_a, R radius_b, R beside) {
   Spots<R> r;
   if (a[1].id < a[0].id) std::swap(a[0], a[1]);  // the first end keeps its id
-  const std::uint32_t id = id_of_edges(a, b);
+  const std::uint32_t id = outline::id_of_edges(a, b);
   const outline::EdgePair<R> e(a, b);
   const R radius = std::max(radius_a, radius_b);
   if (!(radius > beside) || !e.is_collinear(beside)) return r;

@@ -98,7 +98,7 @@ class FeatureCorners {
 template <class R>
 Corners<R> cross_edges(Corners<R>& a, const Corners<R>& b, R tolerance) {
   if (a[1].id < a[0].id) std::swap(a[0], a[1]);  // the first end keeps its id
-  const std::uint32_t id = id_of_edges(a, b);
+  const std::uint32_t id = outline::id_of_edges(a, b);
   const outline::EdgePair<R> e(a, b);
   if (e.is_collinear(tolerance)) return e.common(id);
   Corners<R> r;
@@ -134,6 +134,7 @@ Patch<R> contact_patch(const ConvexBody<R>& a, const ConvexBody<R>* b, const Rel
   bool by_a = true;
   if (!b) {
     show_a(depth + tolerance, region);
+    for (Corner<R>& c : region) c.id |= outline::of_a;
     by_a = false;
   } else if (fa.size >= 3) {
     show_b(depth + tolerance, region);

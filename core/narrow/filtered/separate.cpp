@@ -312,7 +312,10 @@ void convex_half_space(const PlacedShape& pa, const PlacedShape& pb, Asked asked
   r.a = s.at.a_to_world * support_local<R>(s.a, s.normal) + s.a.radius * n;
   r.gap = m.dot(r.a) - m.dot(d) - offset;
   r.b = r.a + r.gap * n;
-  r.bound = u<R> * (48 * (s.a.reach + s.a.radius) + 40 * d.norm() + 8 * std::abs(offset));
+  // The plane's normal is that of the shape, divided by its length, where the pose does not turn it.
+  const R of_normal = b.x == 0 && b.y == 0 && b.z == 0 ? 10 : 26;
+  r.bound = u<R> * ((22 + of_normal) * (s.a.reach + s.a.radius) + (14 + of_normal) * d.norm() +
+                    8 * std::abs(offset));
   r.found = decide(r.gap, r.bound);
   s.b.extent = std::abs(offset);
   if (asked != Asked::overlap && !accepted(r.bound, scale(s.a, s.b, a, b))) r.found = Found::unsure;

@@ -211,26 +211,34 @@ ContactRegion region_on_half_space(const Placed& other, const Vec3& out_of_other
 }  // namespace
 
 ContactRegion contact_region(const Placed& a, const Placed& b, const Vec3& normal_ab, double slack) {
+  return contact_region(a, b, normal_ab, slack, slack);
+}
+
+ContactRegion contact_region(const Placed& a, const Placed& b, const Vec3& normal_ab, double slack_a,
+                             double slack_b) {
   if (has_solid(a, b)) {
     const AsHulls hulls(a, b);
-    return hulls.are_plain() ? contact_region(hulls.a(), hulls.b(), normal_ab, slack) : ContactRegion{};
+    return hulls.are_plain() ? contact_region(hulls.a(), hulls.b(), normal_ab, slack_a, slack_b)
+                             : ContactRegion{};
   }
   if (is<TriangleMesh>(a) || is<TriangleMesh>(b) || (is<HalfSpace>(a) && is<HalfSpace>(b))) return {};
   ContactRegion r;
   double size = 0;
   if (is<HalfSpace>(a)) {
-    r = region_on_half_space(b, -normal_ab, false, normal_ab, a, slack);
+    r = region_on_half_space(b, -normal_ab, false, normal_ab, a, slack_b);
     size = bounding_radius(*b.shape);
   } else if (is<HalfSpace>(b)) {
-    r = region_on_half_space(a, normal_ab, true, normal_ab, b, slack);
+    r = region_on_half_space(a, normal_ab, true, normal_ab, b, slack_a);
     size = bounding_radius(*a.shape);
   } else {
     const Vec3 origin = translation_of(a);
     const ProjectionPlane plane(normal_ab);
-    const Feature x = feature_of(a, origin, normal_ab, slack), y = feature_of(b, origin, -normal_ab, slack);
-    const Convex2 common = intersection(simplified(projected(x.points, plane), slack),
-                                        simplified(projected(y.points, plane), slack), slack);
-    r = region_of(simplified(common, slack), plane, 0.5L * (x.height - y.height), origin);
+    const Feature x = feature_of(a, origin, normal_ab, slack_a),
+                  y = feature_of(b, origin, -normal_ab, slack_b);
+    const double margin = std::min(slack_a, slack_b);
+    const Convex2 common = intersection(simplified(projected(x.points, plane), margin),
+                                        simplified(projected(y.points, plane), margin), margin);
+    r = region_of(simplified(common, margin), plane, 0.5L * (x.height - y.height), origin);
     size = bounding_radius(*a.shape) + bounding_radius(*b.shape) + (translation_of(b) - origin).stableNorm();
   }
   double far = 0;

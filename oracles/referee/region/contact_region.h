@@ -39,6 +39,10 @@ inline constexpr int rim_corners = 256;
 /// half-space, the whole plane. Features that miss each other by less than slack in the plane count as
 /// meeting. slack: a length > 0. normal_ab: finite, not zero.
 ContactRegion contact_region(const Placed& a, const Placed& b, const Vec3& normal_ab, double slack);
+/// The same with a slack for each body, as where a face of one is the reference for what lies deeper of the
+/// other. The smaller of the two is the distance up to which features meet.
+ContactRegion contact_region(const Placed& a, const Placed& b, const Vec3& normal_ab, double slack_a,
+                             double slack_b);
 
 /// The share of a polygon's area, or of a segment's length, covered by the hull of the points projected along
 /// the normal; at most 1. nullopt when the region is neither a polygon nor a segment.
