@@ -18,15 +18,10 @@ struct Basis {
   Plane2 flatten(const WideVec& p) const { return {u.dot(p), v.dot(p)}; }
 };
 
-struct FacePoint {
-  WideVec p;
-  std::uint32_t id;
-};
-
 // Collects the corners that lie in the support face to within the tolerance.
 struct FacePoints {
   const convex::FaceQuery<Wide>& at;
-  std::vector<FacePoint> points;
+  std::vector<ManifoldVertex> points;  // in the core's frame
   void add(const WideVec& p, std::uint32_t id) {
     if (at.d.dot(p) >= at.top - at.limit) points.push_back({p, id});
   }
@@ -43,23 +38,18 @@ void drop_repeats(Outline& p, Wide tolerance) {
   p = kept;
 }
 
-// The corners of the support face along n, in the frame of the core's placement.
-std::vector<FacePoint> face_of(const ConvexCore<Wide>& c, const WideVec& n, Wide tolerance) {
+// The support face along n in the plane's coordinates, in convex order about the plane's normal.
+Outline face_outline(const ConvexCore<Wide>& c, const WideVec& n, Wide tolerance, const Basis& basis,
+                     const WideVec& origin) {
   const WideVec d = c.frame.rotation.transpose() * n;
   const convex::FaceQuery<Wide> at{d, d.dot(support_local<Wide>(c, d)), tolerance, tolerance};
   FacePoints corners{at, {}};
   on_core(c, [&](const auto& core) { core.face_corners(at, corners); });
-  for (FacePoint& x : corners.points) x.p = c.frame.rotation * x.p + c.frame.translation + c.radius * n;
-  return corners.points;
-}
-
-// The support face in the plane's coordinates, in convex order about n.
-Outline face_outline(const ConvexCore<Wide>& c, const WideVec& n, Wide tolerance, const Basis& basis,
-                     const WideVec& origin) {
   Outline r;
-  for (const FacePoint& x : face_of(c, n, tolerance)) {
-    const Plane2 q = basis.flatten(x.p - origin);
-    r.add({q.x(), q.y(), 0, x.id, 0});
+  for (const ManifoldVertex& v : corners.points) {
+    const WideVec p = c.frame.rotation * v.p + c.frame.translation + c.radius * n;
+    const Plane2 q = basis.flatten(p - origin);
+    r.add({q.x(), q.y(), 0, v.id, 0});
   }
   outline::convex_order(r, tolerance);
   return r;
@@ -93,7 +83,7 @@ std::vector<ManifoldVertex> contact_points(const ConvexCore<Wide>& a, const Conv
   const WideVec &n = s.normal, middle = (s.a + s.b) / 2;
   const Basis basis(n);
   Outline region = face_outline(a, n, tolerance, basis, middle);
-  std::uint32_t id = region[0].id | outline::of_a;
+  std::uint32_t id = 0;  // of the middle
   if (b) {
     const Outline other = face_outline(*b, -n, tolerance, basis, middle);
     id = id_of_middle(region, other);

@@ -250,8 +250,10 @@ std::vector<Slacks> region_slacks(const Pair& p) {
         slacks.push_back(below + least / 2);
   }
   std::vector<Slacks> all;
-  for (const double s : slacks)
-    for (const Slacks& both : {Slacks{s, s}, Slacks{least, s}, Slacks{s, least}}) all.push_back(both);
+  for (const double s : slacks) {
+    all.push_back({s, s});
+    if (s > least) all.insert(all.end(), {{least, s}, {s, least}});
+  }
   return all;
 }
 

@@ -312,7 +312,8 @@ void convex_half_space(const PlacedShape& pa, const PlacedShape& pb, Asked asked
   r.a = s.at.a_to_world * support_local<R>(s.a, s.normal) + s.a.radius * n;
   r.gap = m.dot(r.a) - m.dot(d) - offset;
   r.b = r.a + r.gap * n;
-  // The plane's normal is that of the shape, divided by its length, where the pose does not turn it.
+  // The direction of the plane's normal: of the shape's, divided by its length, and turned by the pose if it
+  // turns at all.
   const R of_normal = b.x == 0 && b.y == 0 && b.z == 0 ? 10 : 26;
   r.bound = u<R> * ((22 + of_normal) * (s.a.reach + s.a.radius) + (14 + of_normal) * d.norm() +
                     8 * std::abs(offset));
