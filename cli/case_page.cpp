@@ -85,7 +85,7 @@ bool has_large_mesh(const Scene& scene) {
 Json hull_faces(const Scene& scene) {
   Json faces = Json::object();
   for (std::size_t i = 0; i < scene.shapes.size(); ++i)
-    if (const auto* h = std::get_if<Hull>(&scene.shapes[i])) faces[std::to_string(i)] = h->faces;
+    if (const auto* h = hull_if(scene.shapes[i])) faces[std::to_string(i)] = h->faces;
   return faces;
 }
 

@@ -215,10 +215,11 @@ Run declare_answer(CLI::App& app) {
   app.add_flag("--json", o->json, "one line of JSON for each pair");
   app.footer(
       "A body: SHAPE NUMBERS [at X Y Z] [rot X Y Z 30deg] [quat X Y Z W]\n"
-      "[move X Y Z] [spin X Y Z]. Extents and heights are halves:\n" +
+      "[move X Y Z] [spin X Y Z] [pad P]. Extents and heights are halves:\n" +
       fuzz::describe_shape_texts() +
       "rot turns about an axis (deg or rad). move and spin are velocities over one\n"
-      "step; with them the time of impact is answered too.\n"
+      "step; with them the time of impact is answered too. pad adds all points\n"
+      "within P of the shape.\n"
       "A JSON line: {\"a\": BODY, \"b\": BODY, \"answer\": STATED}; BODY is such a text, or\n"
       "{\"shape\", \"pose\", \"motion\"} of the scene format. STATED has any of overlap,\n"
       "distance (signed), lower_bound, upper_bound, normal (A to B), moment,\n"

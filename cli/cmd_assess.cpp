@@ -6,6 +6,7 @@
 #include "cli/chosen_engines.h"
 #include "cli/command.h"
 #include "cli/import_options.h"
+#include "cli/mcap_trajectory.h"
 #include "cli/output.h"
 #include "cli/page_contents.h"
 #include "cli/progress_line.h"
@@ -28,7 +29,7 @@ struct AssessArguments {
 };
 
 ImportedModel robot_and_world(const AssessArguments& o) {
-  ImportedModel robot = import_model(o.robot, o.import);
+  ImportedModel robot = import_model(o.robot, with_trajectory_text(o.import));
   print_import_notes(o.robot, robot);
   if (o.world.empty()) return robot;
   ImportOptions of_world;

@@ -5,6 +5,7 @@
 
 #include "cli/command.h"
 #include "cli/import_options.h"
+#include "cli/mcap_trajectory.h"
 #include "cli/output.h"
 #include "core/base/input_error.h"
 #include "reports/text/text.h"
@@ -76,7 +77,7 @@ std::string summary(const ImportArguments& o, const ImportedModel& m, const Scen
 
 int run(const ImportArguments& o) {
   require_writable(o.out);
-  const ImportedModel imported = import_model(o.file, o.import);
+  const ImportedModel imported = import_model(o.file, with_trajectory_text(o.import));
   const Scene scene = scene_of(imported);
   print_import_notes(o.file, imported);
   if (!o.out.empty()) save_scene(scene, o.out);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/mcap_trajectory.h"
 #include "core/base/input_error.h"
 #include "scenarios/text/printable.h"
 
@@ -16,7 +17,8 @@ void add_import_options(CLI::App& app, ImportOptions& to) {
   app.add_option("--state", to.state, "named state: GROUP/STATE of an SRDF, keyframe of an MJCF file")
       ->group(group);
   app.add_option("--trajectory", to.trajectory,
-                 "CSV file whose header names joints; each row is a step of the scene's script")
+                 "CSV file whose header names joints, or MCAP recording with joint states; each row is a "
+                 "step of the scene's script")
       ->group(group);
   app.add_option("--package-path", to.package_paths,
                  "folder with the packages of package:// and model:// paths")
@@ -25,15 +27,18 @@ void add_import_options(CLI::App& app, ImportOptions& to) {
   app.add_flag("--lenient", to.lenient, "leave out, with a warning, what a scene cannot represent")
       ->group(group);
   app.add_flag("--convex", to.convex_meshes, "replace meshes by their convex hulls")->group(group);
+  app.add_option("--padding", to.padding, "add all points within this distance (metres) to every shape")
+      ->check(CLI::NonNegativeNumber)
+      ->group(group);
 }
 
 void require_importable(const std::string& text, const ImportOptions& o) {
   const bool given = !o.srdf.empty() || !o.joints.empty() || !o.state.empty() || !o.trajectory.empty() ||
-                     !o.package_paths.empty() || o.lenient || o.convex_meshes;
+                     !o.package_paths.empty() || o.lenient || o.convex_meshes || o.padding != 0;
   if (given && !is_importable(text))
     throw InputError(text, "is not a robot, world or mesh file (" + importable_endings() +
                                "), to which the options --srdf, --joint, --state, --trajectory, "
-                               "--package-path, --lenient and --convex belong");
+                               "--package-path, --lenient, --convex and --padding belong");
 }
 
 void print_import_notes(const std::string& file, const ImportedModel& imported) {
@@ -45,7 +50,7 @@ void print_import_notes(const std::string& file, const ImportedModel& imported) 
 }
 
 StoredCase imported_case(const std::string& file, const ImportOptions& options) {
-  const ImportedModel imported = import_model(file, options);
+  const ImportedModel imported = import_model(file, with_trajectory_text(options));
   print_import_notes(file, imported);
   StoredCase s;
   s.c.scene = scene_of(imported);

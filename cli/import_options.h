@@ -9,7 +9,7 @@
 
 namespace touchstone::cli {
 
-/// --srdf, --joint, --state, --trajectory, --package-path, --lenient, --convex.
+/// --srdf, --joint, --state, --trajectory, --package-path, --lenient, --convex, --padding.
 void add_import_options(CLI::App& app, ImportOptions& to);
 
 /// Throws InputError when an import option was given and the argument is no file that is imported.

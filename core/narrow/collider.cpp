@@ -13,7 +13,7 @@ UnitHalfSpace unit_half_space(const HalfSpace& h) {
 
 Collider::Collider(const Shape& shape, std::size_t least_graph)
     : shape_(&shape), bounding_radius_(touchstone::bounding_radius(shape)) {
-  if (const auto* hull = std::get_if<Hull>(&shape)) {
+  if (const auto* hull = hull_if(shape)) {
     HullGraph graph = build_hull_graph(*hull, least_graph);
     if (graph) graph_ = std::make_unique<const HullGraph>(std::move(graph));
   }

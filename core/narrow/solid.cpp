@@ -33,7 +33,7 @@ Vec3 middle_of(const Hull& h) {
 std::vector<Vec3> points_of(const SeenShape& x) {
   if (x.inside()) return x.inside()->inner;
   if (const auto* mesh = std::get_if<TriangleMesh>(x.seen().shape)) return points_of_parts(*mesh);
-  if (const auto* hull = std::get_if<Hull>(x.seen().shape)) return {middle_of(*hull)};
+  if (const auto* hull = hull_if(*x.seen().shape)) return {middle_of(*hull)};
   return {Vec3::Zero()};
 }
 

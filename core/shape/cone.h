@@ -79,7 +79,9 @@ struct ConeCore {
   bool face_corners(const FaceQuery<R>& at, Out&& out) const {
     const V3<R>& d = at.d;
     const R flat = flat_length(d);
-    if (d[2] < 0 && 2 * flat * radius <= at.limit) {
+    // The base of a cone that is nearly flat is a face on both sides.
+    const bool is_base = d[2] < 0 || 2 * half_height * d[2] <= at.limit;
+    if (is_base && 2 * flat * radius <= at.limit) {
       add_rim_corners(radius, -half_height, out);
     } else {
       const R k = flat > 0 ? radius / flat : R(0);

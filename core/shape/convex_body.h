@@ -149,7 +149,7 @@ template <class R>
 ConvexBody<R> convex_body(const Shape& shape, [[maybe_unused]] const HullGraph* graph = nullptr) {
   return std::visit(
       [&]<class S>(const S& s) -> ConvexBody<R> {
-        if constexpr (std::is_same_v<S, Hull>)
+        if constexpr (requires { s.template core<R>(graph); })
           return ConvexBody<R>(s.template core<R>(graph), static_cast<R>(s.ball_radius()));
         else if constexpr (is_convex_shape<S>)
           return ConvexBody<R>(s.template core<R>(), static_cast<R>(s.ball_radius()));

@@ -18,9 +18,25 @@ struct Field {
   std::string_view name;
   T S::*member;
   Domain domain;
+
+  constexpr auto& of(auto& shape) const { return shape.*member; }
 };
 
 template <class S, class T>
 Field(std::string_view, T S::*, Domain) -> Field<S, T>;
+
+/// A field of a shape that is a member of another.
+template <class Outer, class S, class T>
+struct InnerField {
+  S Outer::*inner;
+  Field<S, T> field;
+  std::string_view name = field.name;
+  Domain domain = field.domain;
+
+  constexpr auto& of(auto& shape) const { return shape.*inner.*field.member; }
+};
+
+template <class Outer, class S, class T>
+InnerField(S Outer::*, Field<S, T>) -> InnerField<Outer, S, T>;
 
 }  // namespace touchstone

@@ -57,11 +57,45 @@ double extent(const Shape& s) {
   return std::visit([](const auto& x) { return x.extent(); }, s);
 }
 
+const Hull* hull_if(const Shape& s) {
+  const auto* outer = std::get_if<Padded<Hull>>(&s);
+  return outer ? &outer->inner : std::get_if<Hull>(&s);
+}
+
+Hull* hull_if(Shape& s) {
+  auto* outer = std::get_if<Padded<Hull>>(&s);
+  return outer ? &outer->inner : std::get_if<Hull>(&s);
+}
+
+std::optional<Shape> padded(const Shape& s, double padding) {
+  if (padding == 0) return s;
+  return std::visit(
+      [&]<class S>(const S& x) -> std::optional<Shape> {
+        S larger = x;
+        if constexpr (std::is_same_v<S, HalfSpace>)
+          larger.offset += padding * x.normal.norm();
+        else if constexpr (has_triangles<S>)
+          return std::nullopt;
+        else if constexpr (std::is_same_v<S, Box>)
+          return RoundedBox{x.half_extents, padding};
+        else if constexpr (!S::has_ball)
+          return Padded<S>{x, padding};
+        else if constexpr (requires { larger.padding; })
+          larger.padding += padding;
+        else
+          larger.radius += padding;
+        return larger;
+      },
+      s);
+}
+
 const std::vector<Vec3>* vertices_if(const Shape& s) {
   return std::visit(
       [](const auto& x) -> const std::vector<Vec3>* {
         if constexpr (requires { x.vertices; })
           return &x.vertices;
+        else if constexpr (requires { x.inner.vertices; })
+          return &x.inner.vertices;
         else
           return nullptr;
       },

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <concepts>
+#include <optional>
 #include <string_view>
 #include <type_traits>
 #include <utility>
@@ -17,6 +18,7 @@
 #include "core/shape/ellipsoid.h"
 #include "core/shape/half_space.h"
 #include "core/shape/hull.h"
+#include "core/shape/padded.h"
 #include "core/shape/rounded_box.h"
 #include "core/shape/solid_mesh.h"
 #include "core/shape/sphere.h"
@@ -24,8 +26,9 @@
 
 namespace touchstone {
 
-using Shape = std::variant<Sphere, Box, Capsule, Cylinder, Cone, Ellipsoid, Hull, HalfSpace, TriangleMesh,
-                           RoundedBox, SolidMesh>;
+using Shape =
+    std::variant<Sphere, Box, Capsule, Cylinder, Cone, Ellipsoid, Hull, HalfSpace, TriangleMesh, RoundedBox,
+                 SolidMesh, Padded<Cylinder>, Padded<Cone>, Padded<Ellipsoid>, Padded<Hull>>;
 
 /// Index of a shape type in the variant. The numbers are part of the C ABI (oracles/abi/touchstone_engine.h).
 enum class ShapeKind : int {
@@ -39,10 +42,15 @@ enum class ShapeKind : int {
   half_space,
   mesh,
   rounded_box,
-  solid_mesh
+  solid_mesh,
+  padded_cylinder,
+  padded_cone,
+  padded_ellipsoid,
+  padded_hull
 };
 inline constexpr int shape_kind_count = static_cast<int>(std::variant_size_v<Shape>);
-static_assert(static_cast<int>(ShapeKind::solid_mesh) + 1 == shape_kind_count, "ShapeKind names every shape");
+static_assert(static_cast<int>(ShapeKind::padded_hull) + 1 == shape_kind_count,
+              "ShapeKind names every shape");
 
 inline ShapeKind kind_of(const Shape& s) { return static_cast<ShapeKind>(s.index()); }
 
@@ -133,7 +141,7 @@ Shape shape_of_kind(ShapeKind k);
 template <class S, class F>
 requires requires { S::fields(); }
 void for_each_field(S& shape, F&& f) {
-  std::apply([&](const auto&... field) { (f(field.name, shape.*field.member, field.domain), ...); },
+  std::apply([&](const auto&... field) { (f(field.name, field.of(shape), field.domain), ...); },
              std::remove_const_t<S>::fields());
 }
 
@@ -144,7 +152,16 @@ double bounding_radius(const Shape& s);
 /// Half the largest extent along the body axes; the size of the shape in the scale L. Zero for a half-space.
 double extent(const Shape& s);
 
-/// The vertices of a hull or mesh; null for other shapes.
+/// A hull, or the core of a padded one; null for other shapes.
+const Hull* hull_if(const Shape& s);
+Hull* hull_if(Shape& s);
+
+/// The points within `padding` of the shape, as a shape: a sphere's or capsule's radius, a rounded box's and
+/// a half-space's offset grow by it (rounded once; a half-space's by |normal| times it), a box becomes a
+/// rounded box, the other convex shapes padded ones. Empty for meshes. Precondition: padding >= 0.
+std::optional<Shape> padded(const Shape& s, double padding);
+
+/// The vertices of a hull, padded or not, or mesh; null for other shapes.
 const std::vector<Vec3>* vertices_if(const Shape& s);
 
 /// The triangles of a mesh, or of a solid mesh's surface; null for other shapes.

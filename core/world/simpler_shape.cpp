@@ -204,6 +204,12 @@ std::optional<SimplerShape> simpler(const RoundedBox& b, double allowed) {
 }
 
 template <class S>
+std::optional<SimplerShape> simpler(const Padded<S>& p, double) {
+  if (p.padding > 0) return std::nullopt;
+  return SimplerShape{p.inner, {}, 0};
+}
+
+template <class S>
 std::optional<SimplerShape> simpler(const S&, double) {
   return std::nullopt;
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -21,7 +22,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-const std::vector<std::string> clauses{"at", "rot", "quat", "move", "spin"};
+const std::vector<std::string> clauses{"at", "rot", "quat", "move", "spin", "pad"};
 
 class Words {
  public:
@@ -32,7 +33,11 @@ class Words {
   [[noreturn]] void fail(const std::string& reason) const { throw InputError(place_, reason); }
   bool done() const { return next_ == words_.size(); }
   std::string word() { return words_[next_++]; }
-  bool at_number() const { return !done() && double_from_text(words_[next_]).has_value(); }
+  std::size_t numbers_ahead() const {
+    const auto from = words_.begin() + static_cast<std::ptrdiff_t>(next_);
+    const auto is_number = [](const std::string& w) { return double_from_text(w).has_value(); };
+    return static_cast<std::size_t>(std::find_if_not(from, words_.end(), is_number) - from);
+  }
   double number(const std::string& of) {
     if (done()) fail(fmt::format("`{}` ends too early: a number is missing", of));
     const auto x = double_from_text(words_[next_]);
@@ -72,9 +77,10 @@ std::optional<ShapeKind> kind_named(const std::string& name) {
       fmt::format("unknown shape `{}`{}", Words::shown(name), near.empty() ? "; known are " + list : near));
 }
 
-Json points(Words& in, const std::string& type) {
+// Points, of whose numbers the last `rest` belong to what follows.
+Json points(Words& in, const std::string& type, std::size_t rest) {
   Json all = Json::array();
-  while (in.at_number()) all.push_back(in.numbers(type, 3));
+  while (in.numbers_ahead() > rest) all.push_back(in.numbers(type, 3));
   return all;
 }
 
@@ -88,11 +94,15 @@ Json shape_from(Words& in) {
   const Shape empty = shape_of_kind(*kind);
   std::visit(
       [&](const auto& s) {
+        std::size_t single = 0;
+        for_each_field(s, [&](auto, const auto& value, Domain) {
+          single += std::is_same_v<std::decay_t<decltype(value)>, double>;
+        });
         for_each_field(s, [&](auto name, const auto& value, Domain) {
           using T = std::decay_t<decltype(value)>;
           if constexpr (std::is_same_v<T, double>) j[name] = in.number(type);
           if constexpr (std::is_same_v<T, Vec3>) j[name] = in.numbers(type, 3);
-          if constexpr (std::is_same_v<T, std::vector<Vec3>>) j[name] = points(in, type);
+          if constexpr (std::is_same_v<T, std::vector<Vec3>>) j[name] = points(in, type, single);
         });
       },
       empty);
@@ -137,12 +147,13 @@ void read_clause(Words& in, Json& body) {
   if (word == "at") return set("pose", "translation", in.numbers(word, 3));
   if (word == "rot") return set("pose", "rotation", rotation_from(in));
   if (word == "quat") return set("pose", "rotation", in.numbers(word, 4));
+  if (word == "pad") return set("shape", "padding", in.number(word));
   if (word == "move") return set("motion", "linear", in.numbers(word, 3));
   if (word == "spin") return set("motion", "angular", in.numbers(word, 3));
   if (double_from_text(word)) in.fail(fmt::format("has one number too many: `{}`", Words::shown(word)));
   const std::string near = did_you_mean(word, clauses);
   in.fail(fmt::format("unknown word `{}`{}", Words::shown(word),
-                      near.empty() ? "; known are at, rot, quat, move, spin" : near));
+                      near.empty() ? "; known are at, rot, quat, move, spin, pad" : near));
 }
 
 }  // namespace

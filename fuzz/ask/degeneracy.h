@@ -19,7 +19,7 @@ bool is_zero(const std::vector<T>&) {
 
 /// A size that is zero, or a hull that is flat. A mesh has no volume to lose, a half-space no size.
 inline bool is_flat(const Shape& shape) {
-  if (const auto* h = std::get_if<Hull>(&shape)) return h->dimension < 3;
+  if (const auto* h = hull_if(shape)) return h->dimension < 3;
   return std::visit(
       [](const auto& s) {
         bool flat = false;

@@ -37,8 +37,11 @@ std::optional<Shape> unit_mesh(const TriangleMesh& m) {
 std::optional<Shape> unit_of(const Shape& s, bool is_first) {
   if (kind_of(s) == ShapeKind::half_space) return HalfSpace{Vec3(is_first ? 1 : -1, 0, 0), 0};
   if (const auto* m = std::get_if<TriangleMesh>(&s)) return unit_mesh(*m);
-  if (const auto* h = std::get_if<Hull>(&s))
-    return h->dimension == 3 ? std::optional(unit_hull()) : std::nullopt;
+  if (const auto* h = hull_if(s)) {
+    if (h->dimension != 3) return std::nullopt;
+    const bool is_padded = kind_of(s) == ShapeKind::padded_hull;
+    return is_padded ? Shape(Padded<Hull>{std::get<Hull>(unit_hull()), 1}) : unit_hull();
+  }
   Shape r = s;
   change_numbers(r, [](auto& v, Domain) {
     if constexpr (std::is_same_v<std::decay_t<decltype(v)>, double>)

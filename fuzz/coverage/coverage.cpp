@@ -147,7 +147,7 @@ void Coverage::note_bodies(const Case& c) {
     const Shape& s = c.scene.shape_of(static_cast<int>(i));
     note("shape", type_name(kind_of(s)));
     if (is_bounded(kind_of(s))) note("size", name_in(sizes, bounding_radius(s)));
-    if (const auto* h = std::get_if<Hull>(&s))
+    if (const auto* h = hull_if(s))
       note("vertices", name_in(vertices, static_cast<double>(h->vertices.size())));
     if (const TriangleMesh* m = triangles_if(s))
       note("triangles", name_in(triangles, static_cast<double>(m->triangles.size())));

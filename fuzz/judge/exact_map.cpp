@@ -36,11 +36,13 @@ void turn_axes(Scene& s, const Mat3& m) {
 }
 
 bool has_own_axis(const Shape& s) {
-  return std::visit(
-      [](const auto& x) {
-        return requires { x.half_height; };
+  bool has = false;
+  std::visit(
+      [&](const auto& x) {
+        for_each_field(x, [&](std::string_view name, const auto&, Domain) { has |= name == "half_height"; });
       },
       s);
+  return has;
 }
 
 bool cycle_axes(Scene& s) {

@@ -22,7 +22,7 @@ void change_numbers(Shape& shape, F&& f) {
         });
       },
       shape);
-  if (auto* h = std::get_if<Hull>(&shape)) *h = make_hull(std::move(h->vertices));
+  if (auto* h = hull_if(shape)) *h = make_hull(std::move(h->vertices));
 }
 
 /// Maps world and body axes together by a signed permutation m of determinant 1: every number keeps its bits.

@@ -52,15 +52,24 @@ double hausdorff_distance(const std::vector<Vec3>& v, const std::vector<Vec3>& w
   return std::max(one_way(v, w), one_way(w, v));
 }
 
+double ball_of(const Shape& s) {
+  return std::visit(
+      [](const auto& x) -> double {
+        if constexpr (is_convex_shape<std::decay_t<decltype(x)>>) return x.ball_radius();
+        return 0;
+      },
+      s);
+}
+
 // How far apart the numbers of two shapes are: every point of one is within this of the other. Infinity for
 // shapes of different kinds: the engine's answers are then always judged for the shape it holds.
 double shape_difference(const Shape& x, const Shape& y) {
   if (x.index() != y.index()) return unbounded;
   if (const TriangleMesh* m = triangles_if(x))
     if (m->triangles != triangles_if(y)->triangles) return unbounded;
-  if (const auto* h = std::get_if<Hull>(&x))
-    if (const auto& held = std::get<Hull>(y).vertices; held.size() != h->vertices.size())
-      return hausdorff_distance(h->vertices, held);
+  if (const auto* h = hull_if(x))
+    if (const auto& held = hull_if(y)->vertices; held.size() != h->vertices.size())
+      return hausdorff_distance(h->vertices, held) + std::abs(ball_of(x) - ball_of(y));
   double sum = 0;
   std::visit(
       [&](const auto& sx) {
@@ -120,8 +129,10 @@ double displacement_of(const Scene& s, const ReceivedScene& r) {
 
 bool is_other_shape(const Shape& asked, const Shape& held) {
   if (asked.index() != held.index()) return true;
-  if (const auto* h = std::get_if<Hull>(&asked))
-    return h->vertices.size() != std::get<Hull>(held).vertices.size();
+  if (const auto* h = hull_if(asked)) {
+    const bool has_other_size = h->vertices.size() != hull_if(held)->vertices.size();
+    if (has_other_size || std::holds_alternative<Hull>(asked)) return has_other_size;
+  }
   if (const TriangleMesh* m = triangles_if(asked)) return m->triangles != triangles_if(held)->triangles;
   if (std::holds_alternative<HalfSpace>(asked)) return false;
   constexpr double most_of_rounding = 1e-3;  // rounding to float and welding in a cooker are far less

@@ -106,6 +106,7 @@ struct ShapeText {
     for (const Vec3& v : s.vertices) list += (list.empty() ? "" : ", ") + js_array(v);
     return fmt::format("{{ type: \"hull\", vertices: [{}] }}", list);
   }
+  std::string operator()(const Padded<Hull>& s) const { return (*this)(s.inner); }
   std::string operator()(const TriangleMesh&) const { return no_mesh(); }
   std::string operator()(const SolidMesh&) const { return no_mesh(); }
   template <class S>

@@ -71,6 +71,11 @@ std::optional<Shape> in_axes(const Hull& s, const Mat3& p) {
   std::sort(h.vertices.begin(), h.vertices.end(), is_before);
   return h;
 }
+template <class S>
+std::optional<Shape> in_axes(const Padded<S>& s, const Mat3& p) {
+  const auto inner = in_axes(s.inner, p);
+  return inner ? std::optional<Shape>(Padded<S>{std::get<S>(*inner), s.padding}) : std::nullopt;
+}
 std::optional<Shape> in_axes(HalfSpace s, const Mat3& p) {
   s.normal = p * s.normal;
   return s;

@@ -47,7 +47,7 @@ Case near_one(Case c) {
 // --- numbers and volume
 
 void restore_volume(Shape& s) {
-  if (auto* h = std::get_if<Hull>(&s)) {
+  if (auto* h = hull_if(s)) {
     if (h->dimension == 3) return;
     const double size = std::max(extent(s), restored_size);
     const Vec3 apex = h->vertices.front();

@@ -66,14 +66,14 @@ std::optional<Case> drop_bodies(const Case& c, std::size_t, std::size_t first, s
 std::size_t shapes(const Case& c) { return c.scene.shapes.size(); }
 
 std::size_t hull_vertices(const Case& c, std::size_t i) {
-  const auto* h = std::get_if<Hull>(&c.scene.shapes[i]);
+  const auto* h = hull_if(c.scene.shapes[i]);
   return h == nullptr ? 0 : h->vertices.size();
 }
 
 std::optional<Case> drop_vertices(const Case& c, std::size_t i, std::size_t first, std::size_t n) {
   if (n >= hull_vertices(c, i)) return std::nullopt;
   Case r = c;
-  auto& h = std::get<Hull>(r.scene.shapes[i]);
+  auto& h = *hull_if(r.scene.shapes[i]);
   erase_range(h.vertices, first, n);
   h = make_hull(std::move(h.vertices));
   return r;

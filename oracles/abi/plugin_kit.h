@@ -81,7 +81,7 @@ struct CardText {
                   tau_factor);
     out.append(numbers);
     if (complete_manifolds) out.append(",\"complete_manifolds\":true");
-    if (host_minor >= 2) add_names(out, "more_shapes", more_shapes);
+    if (host_minor >= 2) add_names(out, "more_shapes", known_shapes());
     if (host_minor >= 3) {
       add_names(out, "shapes", shapes);
       add_numbers(out, "unit_roundoffs", unit_roundoffs);
@@ -94,6 +94,13 @@ struct CardText {
   }
 
  private:
+  // A host of minor 2 to 7 knows no padded shapes.
+  std::vector<std::string> known_shapes() const {
+    std::vector<std::string> known;
+    for (const std::string& s : more_shapes)
+      if (host_minor >= 8 || !s.starts_with("padded_")) known.push_back(s);
+    return known;
+  }
   static std::string text_of(double x) {
     char text[32];
     std::snprintf(text, sizeof text, "%.17g", x);

@@ -24,6 +24,10 @@ template <class S, class T>
 constexpr std::size_t places(const Field<S, T>&) {
   return std::is_same_v<T, double> ? 1 : std::is_same_v<T, Vec3> ? 3 : 0;
 }
+template <class Outer, class S, class T>
+constexpr std::size_t places(const InnerField<Outer, S, T>& f) {
+  return places(f.field);
+}
 template <class... S>
 constexpr bool fit_in_size(const std::variant<S...>*) {
   const auto total = [](const auto&... field) { return (places(field) + ... + 0); };
@@ -79,10 +83,13 @@ Shape with_vertices(const Shape& asked, std::vector<Vec3> vertices) {
     return mesh_of_kind(kind_of(asked), {std::move(vertices), mesh->triangles});
   const bool finite =
       std::all_of(vertices.begin(), vertices.end(), [](const Vec3& v) { return v.allFinite(); });
-  if (finite) return make_hull(std::move(vertices));
-  Hull h;
-  h.vertices = std::move(vertices);
-  return h;
+  Shape shape = asked;
+  Hull& h = *hull_if(shape);
+  if (finite)
+    h = make_hull(std::move(vertices));
+  else
+    h = {std::move(vertices), {}, 0};
+  return shape;
 }
 
 std::vector<Vec3> points_from(const double* p, std::size_t count) {
@@ -108,10 +115,9 @@ std::optional<Shape> shape_from(const ts_shape& t) {
   if (!vertices_if(s)) return s;
   if (!t.vertices || t.vertex_count == 0) return std::nullopt;
   std::vector<Vec3> points = points_from(t.vertices, t.vertex_count);
-  if (std::holds_alternative<Hull>(s)) {
-    Hull none;
-    none.vertices = {Vec3::Zero()};
-    return with_vertices(none, std::move(points));
+  if (Hull* h = hull_if(s)) {
+    h->vertices = {Vec3::Zero()};
+    return with_vertices(s, std::move(points));
   }
   TriangleMesh m{std::move(points), {}};
   for (std::size_t k = 0; k < t.triangle_count; ++k) {
@@ -143,7 +149,7 @@ ts_shape shape_to(const Shape& s, std::vector<double>& vertices) {
     out.vertices = vertices.data();
     out.vertex_count = v->size();
   }
-  if (const auto* h = std::get_if<Hull>(&s)) {
+  if (const auto* h = hull_if(s)) {
     point_at(h->faces, out);
     out.dimension = h->dimension;
   }
@@ -203,12 +209,14 @@ void ReceivedCollector::shape(int index, const double* size, const double* verti
   const auto i = static_cast<std::size_t>(index);
   const Shape& asked = scene_.shapes[i];
   if (const std::vector<Vec3>* v = vertices_if(asked)) {
-    const bool is_hull = std::holds_alternative<Hull>(asked);
+    const bool is_hull = hull_if(asked) != nullptr;
     if (!vertices || vertex_count == 0 || (!is_hull && vertex_count != v->size())) {
       ++rejected_;
       return;
     }
-    received_.shapes[i] = with_vertices(asked, points_from(vertices, vertex_count));
+    Shape s = with_vertices(asked, points_from(vertices, vertex_count));
+    if (size) get_sizes(size, s);
+    received_.shapes[i] = std::move(s);
     return;
   }
   Shape s = asked;

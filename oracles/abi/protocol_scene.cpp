@@ -40,7 +40,7 @@ void put_shape(Writer& w, const Shape& shape) {
   w.put(static_cast<std::uint8_t>(shape.index()));
   const PutField put{w};
   std::visit([&](const auto& s) { for_each_field(s, [&](auto, const auto& v, Domain) { put(v); }); }, shape);
-  if (const auto* h = std::get_if<Hull>(&shape)) {
+  if (const auto* h = hull_if(shape)) {
     put(h->faces);
     w.put(h->dimension);
   }
@@ -57,7 +57,7 @@ Shape get_shape(Reader& r) {
   Shape shape = shape_of_kind(static_cast<ShapeKind>(r.tag(static_cast<std::uint8_t>(shape_kind_count))));
   const GetField get{r};
   std::visit([&](auto& s) { for_each_field(s, [&](auto, auto& v, Domain) { get(v); }); }, shape);
-  if (auto* h = std::get_if<Hull>(&shape)) {
+  if (auto* h = hull_if(shape)) {
     get(h->faces);
     h->dimension = r.get<std::int32_t>();
     if (h->vertices.empty() || h->dimension < 0 || h->dimension > 3) throw Malformed("an invalid hull");

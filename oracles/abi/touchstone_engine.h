@@ -43,8 +43,9 @@ extern "C" {
  * 4: TS_WITHIN to TS_RAY; ts_scene.margin; ts_answer.lower, upper; TS_HAS_LOWER, TS_HAS_UPPER
  * 5: "separate_triangles" of a card; ts_answer.moment, unique_gradient; TS_HAS_MOMENT, TS_HAS_UNIQUE
  * 6: TS_SOLID_MESH
- * 7: ts_sink.named_point, ts_batch_sink.named_point */
-#define TS_ABI_MINOR 7
+ * 7: ts_sink.named_point, ts_batch_sink.named_point
+ * 8: TS_PADDED_CYLINDER to TS_PADDED_HULL */
+#define TS_ABI_MINOR 8
 
 #if defined(_WIN32)
 #define TS_EXPORT __declspec(dllexport)
@@ -63,13 +64,18 @@ enum ts_shape_kind {
   TS_HALF_SPACE = 7, /* size[0..2] = normal n (any length), size[3] = offset d: solid where n.x <= d */
   TS_MESH = 8,       /* vertices, triangles: a surface */
   TS_ROUNDED_BOX = 9, /* size[0..2] = half extents of a box, size[3] = radius: all points within it of the box */
-  TS_SOLID_MESH = 10  /* vertices, triangles: a closed surface, counter-clockwise seen from outside, and its inside */
+  TS_SOLID_MESH = 10, /* vertices, triangles: a closed surface, counter-clockwise seen from outside, and its inside */
+  /* All points within the padding of another shape; size: as of that shape, then the padding */
+  TS_PADDED_CYLINDER = 11,  /* size[0] = radius, size[1] = half height, size[2] = padding */
+  TS_PADDED_CONE = 12,      /* size[0] = radius, size[1] = half height, size[2] = padding */
+  TS_PADDED_ELLIPSOID = 13, /* size[0..2] = semi-axes, size[3] = padding */
+  TS_PADDED_HULL = 14       /* as TS_HULL; size[0] = padding */
 };
 /* Unless its card lists the kinds that it takes ("shapes"), an engine is sent those up to this one, and those after it
  * that the card adds ("more_shapes"). */
 #define TS_LAST_COMMON_SHAPE TS_MESH
 /* The last kind of this header. */
-#define TS_LAST_SHAPE TS_SOLID_MESH
+#define TS_LAST_SHAPE TS_PADDED_HULL
 
 typedef struct ts_shape {
   int32_t kind;

@@ -45,7 +45,10 @@ class Engine {
     for (const Setting& s : settings)
       all.push_back({prefix + std::string(s.name), "Bullet", version, text_of(s), unit_roundoff,
                      kit::oracle_tau_factor, source});
-    for (kit::CardText& card : all) card.separate_triangles = true;
+    for (kit::CardText& card : all) {
+      card.separate_triangles = true;
+      card.more_shapes = padded_shapes;
+    }
     // Queries send boxes through GJK and EPA, the simulation through btBoxBoxDetector.
     for (std::size_t i = 0; i < all.size(); ++i)
       if (settings[i].sim) all[i].depth_biases = {{"box box", kit::face_preference}};

@@ -15,6 +15,18 @@ std::unique_ptr<btCollisionShape> make_hull(const ts_shape& asked, std::optional
   return hull;
 }
 
+// The hull of the box's corners; the margin is the radius.
+std::unique_ptr<btCollisionShape> make_rounded_box(const ts_shape& asked) {
+  auto hull = std::make_unique<btConvexHullShape>();
+  hull->setMargin(scalar(asked.size[3]));
+  const btVector3 h = vector(asked.size);
+  for (const btScalar x : {-h.x(), h.x()})
+    for (const btScalar y : {-h.y(), h.y()})
+      for (const btScalar z : {-h.z(), h.z()}) hull->addPoint({x, y, z}, /*recalculateLocalAabb=*/false);
+  hull->recalcLocalAabb();
+  return hull;
+}
+
 std::unique_ptr<btCollisionShape> make_plane(const ts_shape& asked) {
   const Vec3 n(asked.size[0], asked.size[1], asked.size[2]);
   const double length = n.stableNorm();
@@ -56,6 +68,22 @@ Size size_of(const Shape& s) {
       const auto& c = static_cast<const btConeShape&>(*s.shape);
       return {{c.getRadius(), static_cast<double>(c.getHeight()) / 2}};
     }
+    case TS_ROUNDED_BOX: {
+      const auto& hull = static_cast<const btConvexHullShape&>(*s.shape);
+      const btVector3& h = hull.getUnscaledPoints()[hull.getNumPoints() - 1];
+      return {{h.x(), h.y(), h.z(), hull.getMargin()}};
+    }
+    case TS_PADDED_CYLINDER: {
+      const auto& c = static_cast<const btCylinderShape&>(*s.shape);
+      const btVector3& core = c.getImplicitShapeDimensions();
+      return {{core.x(), core.z(), c.getMargin()}};
+    }
+    case TS_PADDED_CONE: {
+      const auto& c = static_cast<const btConeShape&>(*s.shape);
+      return {{c.getRadius(), static_cast<double>(c.getHeight()) / 2, c.getMargin()}};
+    }
+    case TS_PADDED_HULL:
+      return {{s.shape->getMargin()}};
     case TS_HALF_SPACE: {
       const auto& p = static_cast<const btStaticPlaneShape&>(*s.shape);
       const btVector3& n = p.getPlaneNormal();
@@ -69,7 +97,7 @@ Size size_of(const Shape& s) {
 std::vector<double> vertices_of(const Shape& s) {
   std::vector<double> out;
   if (s.kind == TS_MESH) out.assign(s.mesh_vertices.begin(), s.mesh_vertices.end());
-  if (s.kind != TS_HULL) return out;
+  if (s.kind != TS_HULL && s.kind != TS_PADDED_HULL) return out;
   const auto& hull = static_cast<const btConvexHullShape&>(*s.shape);
   for (int i = 0; i < hull.getNumPoints(); ++i) {
     const btVector3& p = hull.getUnscaledPoints()[i];
@@ -115,6 +143,23 @@ std::unique_ptr<Shape> make_shape(const ts_shape& asked, std::optional<double> m
     case TS_MESH:
       out->shape = make_mesh(asked, *out);
       break;
+    // A padding is the margin, whatever margin the engine's setting has.
+    case TS_ROUNDED_BOX:
+      out->shape = make_rounded_box(asked);
+      return out;
+    case TS_PADDED_CYLINDER: {
+      const btScalar padding = scalar(asked.size[2]);
+      out->shape = std::make_unique<btCylinderShapeZ>(btVector3(r + padding, r + padding, h + padding));
+      out->shape->setMargin(padding);
+      return out;
+    }
+    case TS_PADDED_CONE:
+      out->shape = std::make_unique<btConeShapeZ>(r, 2 * h);
+      out->shape->setMargin(scalar(asked.size[2]));
+      return out;
+    case TS_PADDED_HULL:
+      out->shape = make_hull(asked, asked.size[0]);
+      return out;
     default:
       return out;
   }

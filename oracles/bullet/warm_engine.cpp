@@ -48,6 +48,7 @@ class Engine {
         kit::oracle_tau_factor,
         source};
     card.separate_triangles = true;
+    card.more_shapes = padded_shapes;
     card.depth_biases = {{"box box", kit::face_preference}};
     return {card};
   }

@@ -4,6 +4,8 @@
 // toc_err), so that a chart shows a method as a curve. FCL's requests have no iteration limits.
 #include <fcl/config.h>
 
+#include <algorithm>
+
 #include "core/math/roundoff.h"
 #include "oracles/abi/plugin_kit.h"
 #include "oracles/fcl/queries.h"
@@ -62,6 +64,7 @@ class Engine {
     const auto card = [](const char* name, const char* settings) {
       kit::CardText c{name, "FCL", FCL_VERSION, settings, double_roundoff, kit::oracle_tau_factor, source};
       c.separate_triangles = true;
+      c.more_shapes = {"rounded_box", "padded_cylinder", "padded_cone", "padded_ellipsoid", "padded_hull"};
       // Contacts by collide take boxBox2, those by signed distance do not.
       if (c.name != "fcl-libccd-tuned") c.depth_biases = {{"box box", kit::face_preference}};
       return c;
@@ -93,8 +96,9 @@ class Engine {
     for (std::size_t i = 0; i < scene.body_count; ++i) {
       const ts_body& b = scene.bodies[i];
       const auto shape = static_cast<std::size_t>(b.shape);
+      const Core core = core_of(scene.shapes[shape]);
       bodies_.push_back(
-          {geometries_[shape].get(), make_transform(kit::pose_of(b.pose)), scene.shapes[shape].kind});
+          {geometries_[shape].get(), make_transform(kit::pose_of(b.pose)), core.kind, core.padding});
       report_body(static_cast<int>(i), bodies_.back().transform, received);
     }
     scene_ = &scene;
@@ -107,14 +111,18 @@ class Engine {
   }
 
   void ask(ts_question question, int a, int b, ts_answer& out, const ts_sink& sink) {
+    const bool by_distance = question == TS_OVERLAP || question == TS_DISTANCE;
+    const auto is_padded = [](const Placed& p) { return p.padding > 0; };
+    if (!by_distance && std::any_of(bodies_.begin(), bodies_.end(), is_padded))
+      throw kit::Unsupported("FCL has no padding: distances of the cores tell overlap and distance only");
+    if (by_distance && are_padded(a, b) && (body(a).kind == TS_HALF_SPACE || body(b).kind == TS_HALF_SPACE))
+      throw kit::Unsupported("FCL states no distance from a half-space, so none of padded bodies");
     const bool of_motions = settings_.samples > 0 || settings_.impact_tolerance > 0;
     if (question == TS_TIME_OF_IMPACT ? settings_.tolerance > 0 : of_motions)
       throw kit::Unsupported("this engine's setting does not affect this question");
     switch (question) {
       case TS_OVERLAP:
-        kit::set_overlap(out, overlap(body(a), body(b), settings_));
-        out.claimed_tolerance = overlap_tolerance(settings_);
-        return;
+        return ask_overlap(a, b, out);
       case TS_DISTANCE:
         return ask_distance(a, b, out);
       case TS_CONTACT:
@@ -140,6 +148,20 @@ class Engine {
 
  private:
   const Placed& body(int i) const { return bodies_[static_cast<std::size_t>(i)]; }
+
+  bool are_padded(int a, int b) const { return body(a).padding > 0 || body(b).padding > 0; }
+
+  // Padded bodies overlap if their cores are near enough.
+  void ask_overlap(int a, int b, ts_answer& out) {
+    if (!are_padded(a, b)) {
+      kit::set_overlap(out, overlap(body(a), body(b), settings_));
+      out.claimed_tolerance = overlap_tolerance(settings_);
+      return;
+    }
+    const Distance d = distance(body(a), body(b), settings_);
+    out.claimed_tolerance = d.claimed_tolerance;
+    kit::set_overlap(out, d.overlap || (d.distance && *d.distance <= 0));
+  }
 
   void ask_distance(int a, int b, ts_answer& out) {
     const Distance d = distance(body(a), body(b), settings_);

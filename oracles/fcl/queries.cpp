@@ -138,7 +138,7 @@ Distance distance(const Placed& a, const Placed& b, const Settings& s) {
                         : s.tuned       ? tuned_distance_tolerance
                                         : shipped_tolerance;
   fcl::DistanceResultd r = run_distance(a, b, s, /*with_sign=*/!s.tuned, d.claimed_tolerance);
-  if (s.tuned && r.min_distance < 0) {
+  if (s.tuned && r.min_distance < 0) {  // the cores overlap
     // Unsigned: "in collision, the result distance is implementation defined (mostly -1)".
     if (!s.libccd()) {
       d.overlap = true;
@@ -147,9 +147,19 @@ Distance distance(const Placed& a, const Placed& b, const Settings& s) {
     r = run_distance(a, b, s, /*with_sign=*/true, tuned_depth_tolerance);
     d.claimed_tolerance = tuned_depth_tolerance;
   }
-  d.distance = r.min_distance;
-  if (d.distance > 0 || guarantees_deepest_points(a, b, s))
-    d.points = {r.nearest_points[0], r.nearest_points[1]};
+  d.distance = r.min_distance - a.padding - b.padding;
+  const bool are_apart = r.min_distance > 0;
+  if (are_apart || guarantees_deepest_points(a, b, s)) d.points = {r.nearest_points[0], r.nearest_points[1]};
+  if (d.points && a.padding + b.padding > 0) {
+    const Vec3 across = (are_apart ? 1 : -1) * (r.nearest_points[1] - r.nearest_points[0]);
+    const double length = across.norm();
+    if (!(length > 0)) {
+      d.points.reset();
+    } else {
+      (*d.points)[0] += across * (a.padding / length);
+      (*d.points)[1] -= across * (b.padding / length);
+    }
+  }
   return d;
 }
 

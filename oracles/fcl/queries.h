@@ -15,7 +15,8 @@ namespace touchstone::fcl_adapter {
 struct Placed {
   const fcl::CollisionGeometryd* geometry;
   fcl::Transform3d transform;
-  int kind;  // ts_shape_kind
+  int kind;  // ts_shape_kind; of a padded body, that of its core
+  double padding = 0;
 };
 
 struct Settings {
@@ -51,6 +52,7 @@ struct Distance {
   std::optional<std::array<Vec3, 2>> points;  // nothing where FCL's documentation disclaims them
   double claimed_tolerance = 0;
 };
+/// Of padded bodies: that of their cores, less the paddings.
 Distance distance(const Placed& a, const Placed& b, const Settings& s);
 
 /// Time of first contact; nullopt for "no hit".

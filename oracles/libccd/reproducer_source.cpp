@@ -48,7 +48,7 @@ constexpr std::string_view ask_contact = R"(  ccd_real_t depth = NAN;
 // As in the adapter: the origin of a primitive, the mean of a hull's vertices.
 std::string center(const Shape& s, const Pose& p) {
   Vec3 mean = Vec3::Zero();
-  if (const auto* h = std::get_if<Hull>(&s)) {
+  if (const Hull* h = hull_if(s)) {
     for (const Vec3& v : h->vertices) mean += v;
     mean /= static_cast<double>(h->vertices.size());
   }

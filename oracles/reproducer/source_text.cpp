@@ -88,10 +88,24 @@ struct LocalSupport {
            "};\n  Vec p = vertices[0];\n"
            "  for (const Vec& v : vertices)\n    if (dot(v, d) > dot(p, d)) p = v;\n";
   }
+  std::string operator()(const RoundedBox& s) const { return with_ball(Box{s.half_extents}, s.radius); }
+  template <class S>
+  std::string operator()(const Padded<S>& s) const {
+    return with_ball(s.inner, s.padding);
+  }
   // No engine with a reproducer is sent the other shapes.
   template <class S>
   std::string operator()(const S&) const {
     throw InputError("reproduce", fmt::format("no support mapping of a {} is written", S::type));
+  }
+
+ private:
+  template <class S>
+  std::string with_ball(const S& core, double radius) const {
+    return "  const auto core = [](const Vec& d) {\n" + (*this)(core) +
+           "  return p;\n  };\n  Vec p = core(d);\n  const double length = std::sqrt(dot(d, d));\n" +
+           fmt::format("  for (int i = 0; i < 3 && length > 0; ++i) p[i] += {} * d[i] / length;\n",
+                       literal(radius));
   }
 };
 
@@ -112,6 +126,9 @@ struct Description {
     return out;
   }
   std::string operator()(const Hull& s) const { return fmt::format("hull of {} points", s.vertices.size()); }
+  std::string operator()(const Padded<Hull>& s) const {
+    return fmt::format("hull of {} points, padding {}", s.inner.vertices.size(), s.padding);
+  }
   std::string operator()(const HalfSpace& s) const {
     return fmt::format("half-space ({})·x <= {}", literals(s.normal), s.offset);
   }

@@ -25,7 +25,7 @@ void make_solid(Scene& scene) {
 }
 
 std::uint64_t vertices_of(const Shape& s) {
-  const auto* h = std::get_if<Hull>(&s);
+  const auto* h = hull_if(s);
   return h ? h->vertices.size() : 0;
 }
 

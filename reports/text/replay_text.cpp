@@ -47,7 +47,7 @@ std::string body_line(const Scene& s, int i) {
       },
       shape);
   static constexpr const char* flat[] = {" (flat: a point)", " (flat: a segment)", " (flat: a polygon)", ""};
-  if (const auto* h = std::get_if<Hull>(&shape)) t += flat[h->dimension];
+  if (const auto* h = hull_if(shape)) t += flat[h->dimension];
   t += fmt::format(", at {}", vec(b.pose.translation));
   const Quat& q = b.pose.rotation;
   if (q != Quat{}) t += fmt::format(", q ({:.6g} {:.6g} {:.6g} {:.6g})", q.x, q.y, q.z, q.w);

@@ -1,5 +1,7 @@
 #include "scenarios/codec/scene_codec.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
 #include <nlohmann/json.hpp>
@@ -8,6 +10,7 @@
 #include "scenarios/codec/json_file.h"
 #include "scenarios/codec/json_reader.h"
 #include "scenarios/codec/scene_fields.h"
+#include "scenarios/value/height_surface.h"
 
 namespace touchstone {
 namespace {
@@ -75,20 +78,34 @@ void read(const JsonReader& r, Vec3& v) { v = r.vec3(); }
 void read(const JsonReader& r, std::vector<Vec3>& v) { v = r.points(); }
 void read(const JsonReader& r, std::vector<std::array<int, 3>>& v) { v = r.triples(); }
 
+constexpr std::string_view padding_name = "padding", height_field_name = "height_field";
+
+double read_padding(const JsonReader& r) {
+  const double padding = r.number();
+  if (!(padding >= 0) || !std::isfinite(padding)) r.fail("is not a number of at least 0");
+  return padding;
+}
+
 template <class S>
 Shape read_fields(const JsonReader& r) {
-  S shape;
+  S read_shape;
   std::vector<std::string_view> known{"type"};
-  for_each_field(shape, [&](auto name, auto&, Domain) { known.push_back(name); });
+  for_each_field(read_shape, [&](auto name, auto&, Domain) { known.push_back(name); });
+  // Any shape but a mesh may state a padding; a padded one has it as a field of its own.
+  const bool may_be_padded = !has_triangles<S> && std::ranges::find(known, padding_name) == known.end();
+  if (may_be_padded) known.push_back(padding_name);
+  if (has_triangles<S> && r.has(padding_name)) r[padding_name].fail("a mesh cannot be padded");
   r.require_object(known);
-  for_each_field(shape, [&](auto name, auto& value, Domain) { read(r[name], value); });
-  if constexpr (std::is_same_v<S, Hull>) {
+  for_each_field(read_shape, [&](auto name, auto& value, Domain) { read(r[name], value); });
+  Shape shape = std::move(read_shape);
+  if (Hull* hull = hull_if(shape)) {
     try {
-      return make_hull(std::move(shape.vertices));
+      *hull = make_hull(std::move(hull->vertices));
     } catch (const InputError& e) {
       throw InputError(r.place() + "." + e.place(), e.reason());
     }
   }
+  if (may_be_padded && r.has(padding_name)) return *padded(shape, read_padding(r[padding_name]));
   return shape;
 }
 
@@ -99,7 +116,7 @@ Shape read_shape_named(const JsonReader& r, const std::string& type) {
     for (int k = 0; k < shape_kind_count; ++k)
       list += (k ? ", " : "") + std::string(type_name(static_cast<ShapeKind>(k)));
     r["type"].fail("unknown shape " + Json(type).dump(-1, ' ', true, Json::error_handler_t::replace) +
-                   "; known are " + list);
+                   "; known are " + list + ", " + std::string(height_field_name));
   } else {
     using S = std::variant_alternative_t<I, Shape>;
     return type == S::type ? read_fields<S>(r) : read_shape_named<I + 1>(r, type);
@@ -116,9 +133,43 @@ Shape read_mesh_declared(const JsonReader& r) {
   return SolidMesh(std::move(mesh));
 }
 
+constexpr std::size_t most_heights = std::size_t{1} << 20;  // two million triangles
+
+double read_cell(const JsonReader& r) {
+  const double side = r.number();
+  if (!(side > 0)) r.fail("is not a number above 0");
+  return side;
+}
+
+// Another way to write a mesh. The grid is centred at the body's origin.
+Shape read_height_field(const JsonReader& r) {
+  static constexpr auto known = std::to_array<std::string_view>({"type", "cell", "heights"});
+  r.require_object(known);
+  const auto sides = r["cell"].items(2);
+  const double dx = read_cell(sides[0]), dy = read_cell(sides[1]);
+  std::vector<std::vector<double>> heights;
+  std::size_t count = 0;
+  for (const JsonReader& row : r["heights"].items()) {
+    std::vector<double>& to = heights.emplace_back();
+    for (const JsonReader& h : row.items()) to.push_back(h.number());
+    if (to.size() < 2) row.fail("has fewer than two heights");
+    if (to.size() != heights.front().size()) row.fail("has another number of heights than the first row");
+    if ((count += to.size()) > most_heights)
+      r["heights"].fail(fmt::format("has more than {} heights", most_heights));
+  }
+  if (heights.size() < 2) r["heights"].fail("has fewer than two rows");
+  const auto offset = [](std::size_t i, std::size_t n) {
+    return static_cast<double>(i) - static_cast<double>(n - 1) / 2;
+  };
+  return height_surface(heights.size(), heights.front().size(), [&](std::size_t j, std::size_t i) {
+    return Vec3(dx * offset(i, heights.front().size()), dy * offset(j, heights.size()), heights[j][i]);
+  });
+}
+
 Shape read_shape(const JsonReader& r) {
   r.require_object();
   const std::string type = r["type"].string();
+  if (type == height_field_name) return read_height_field(r);
   return type == TriangleMesh::type && r.has("solid") ? read_mesh_declared(r) : read_shape_named(r, type);
 }
 

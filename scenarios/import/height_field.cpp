@@ -8,6 +8,7 @@
 #include "core/base/input_error.h"
 #include "scenarios/codec/scene_codec.h"
 #include "scenarios/import/mesh_import.h"
+#include "scenarios/value/height_surface.h"
 
 namespace touchstone {
 namespace {
@@ -74,21 +75,12 @@ void normalize(HeightGrid& grid) {
 }
 
 TriangleMesh surface_of(const HeightGrid& grid, double half_x, double half_y, double height) {
-  TriangleMesh m;
   const double dx = 2 * half_x / static_cast<double>(grid.columns - 1),
                dy = 2 * half_y / static_cast<double>(grid.rows - 1);
-  for (std::size_t r = 0; r < grid.rows; ++r)
-    for (std::size_t c = 0; c < grid.columns; ++c)
-      m.vertices.push_back({dx * static_cast<double>(c) - half_x, dy * static_cast<double>(r) - half_y,
-                            height * static_cast<double>(grid.at(r, c))});
-  const int columns = static_cast<int>(grid.columns);
-  for (int r = 0; r + 1 < static_cast<int>(grid.rows); ++r)
-    for (int c = 0; c + 1 < columns; ++c) {
-      const int corner = r * columns + c, above = corner + columns;
-      m.triangles.push_back({corner, corner + 1, above + 1});
-      m.triangles.push_back({corner, above + 1, above});
-    }
-  return m;
+  return height_surface(grid.rows, grid.columns, [&](std::size_t r, std::size_t c) {
+    return Vec3(dx * static_cast<double>(c) - half_x, dy * static_cast<double>(r) - half_y,
+                height * static_cast<double>(grid.at(r, c)));
+  });
 }
 
 }  // namespace touchstone

@@ -32,9 +32,8 @@ HeightGrid read_height_file(const std::filesystem::path& file);
 /// MuJoCo does.
 void normalize(HeightGrid& grid);
 
-/// The grid over [−half_x, half_x] × [−half_y, half_y], its heights times `height` as z. Each cell is two
-/// triangles, which share the diagonal from its corner of least x and y to the opposite one; they are
-/// counter-clockwise from above. Precondition: require_grid_size.
+/// The grid over [−half_x, half_x] × [−half_y, half_y], its heights times `height` as z. See
+/// height_surface. Precondition: require_grid_size.
 TriangleMesh surface_of(const HeightGrid& grid, double half_x, double half_y, double height);
 
 struct GreyImage {

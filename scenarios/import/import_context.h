@@ -17,9 +17,11 @@ struct ImportOptions {
   std::vector<std::string> joints;  // "NAME=VALUE"
   std::string state;                // "GROUP/STATE", or a keyframe
   std::string trajectory;           // CSV file; empty: none
+  std::string trajectory_text;      // that is taken in place of the file's, if it is not empty
   std::vector<std::filesystem::path> package_paths;
   bool lenient = false;
   bool convex_meshes = false;
+  double padding = 0;  // added to every shape
 };
 
 /// Something in a file that was left out.

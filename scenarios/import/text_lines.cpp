@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <utility>
 
 #include "core/base/exact_text.h"
 #include "core/base/input_error.h"
@@ -11,6 +12,9 @@ namespace touchstone {
 
 TextLines::TextLines(const std::filesystem::path& file, char separator)
     : file_(file.string()), text_(read_file(file)), separator_(separator) {}
+
+TextLines::TextLines(const std::filesystem::path& file, std::string text, char separator)
+    : file_(file.string()), text_(std::move(text)), separator_(separator) {}
 
 std::string TextLines::place() const { return file_ + ":" + std::to_string(line_); }
 

@@ -14,6 +14,8 @@ namespace touchstone {
 class TextLines {
  public:
   TextLines(const std::filesystem::path& file, char separator);
+  /// Of that text, which errors name as the file.
+  TextLines(const std::filesystem::path& file, std::string text, char separator);
 
   /// Advances to the next line that is not empty and, in blank-separated text, not a `#` comment. False at
   /// the end.

@@ -7,7 +7,7 @@ namespace touchstone::fuzz {
 namespace {
 
 std::size_t parts(const Shape& shape) {
-  if (const auto* h = std::get_if<Hull>(&shape)) return h->vertices.size();
+  if (const auto* h = hull_if(shape)) return h->vertices.size();
   if (const TriangleMesh* m = triangles_if(shape)) return m->vertices.size() + 3 * m->triangles.size();
   return 0;
 }

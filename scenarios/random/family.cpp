@@ -104,7 +104,7 @@ void lattice(Rng& rng, Case& c) {
         },
         shape);
   for (Shape& shape : s.shapes)
-    if (auto* h = std::get_if<Hull>(&shape)) *h = make_hull(std::move(h->vertices));
+    if (auto* h = hull_if(shape)) *h = make_hull(std::move(h->vertices));
   for (Body& body : s.bodies) body.pose.rotation = turns[rng.below(std::size(turns))];
   s.bodies[1].pose.rotation = rng.chance(0.5) ? s.bodies[0].pose.rotation : s.bodies[1].pose.rotation;
   const Vec3 n = placement_direction(rng, s);
@@ -242,7 +242,8 @@ constexpr Family catalog[] = {
     {"vertices", "hulls of 64 to 300 vertices", 4, many_vertices},
     {"company", "3 to 14 bodies with meshes, groups, ignored pairs: candidates and contacts", 4, company},
     {"dialogue", "3 to 6 bodies, few shapes; pairs queried in turn, in both orders, and again", 5, dialogue},
-    {"later", "rounded boxes against any shape: apart, touching, deep, concentric, in motion", 6,
+    {"later",
+     "rounded boxes and padded shapes against any shape: apart, touching, deep, concentric, in motion", 6,
      later_shapes},
     {"surfaces", "two meshes: apart, touching, crossing, one inside the other, coplanar", 6, two_meshes},
     {"margins", "pairs at a margin: exactly, within ulps, within 2^-40 to 2^-4 of the size", 4, margins},

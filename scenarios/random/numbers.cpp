@@ -60,7 +60,7 @@ std::vector<double*> numbers(Case& c) {
 
 void renew(Case& c) {
   for (Shape& s : c.scene.shapes)
-    if (auto* h = std::get_if<Hull>(&s)) *h = make_hull(std::move(h->vertices));
+    if (auto* h = hull_if(s)) *h = make_hull(std::move(h->vertices));
 }
 
 }  // namespace touchstone::fuzz

@@ -47,7 +47,7 @@ void put_on_lattice(Rng& rng, Scene& s) {
   for (Body& b : s.bodies) b.pose.rotation = turns[rng.below(std::size(turns))];
   for (Shape& shape : s.shapes) {
     for (double* x : numbers(shape)) *x = std::round(*x * 8) / 8;
-    if (auto* h = std::get_if<Hull>(&shape)) *h = make_hull(std::move(h->vertices));
+    if (auto* h = hull_if(shape)) *h = make_hull(std::move(h->vertices));
   }
   for (double& x : s.bodies[1].pose.translation) x = std::round(rng.uniform(-1, 1) * 8) / 8;
 }
@@ -84,7 +84,7 @@ void exchange_bodies(Scene& s) {
 }
 
 void flatten(Rng& rng, Shape& shape) {
-  if (auto* h = std::get_if<Hull>(&shape)) return flatten_hull(rng, *h);
+  if (auto* h = hull_if(shape)) return flatten_hull(rng, *h);
   const auto all = sizes_of(shape);
   if (all.empty()) return;
   const auto zero = 1 + rng.below((std::uint64_t{1} << all.size()) - 1);

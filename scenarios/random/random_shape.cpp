@@ -77,6 +77,14 @@ Shape random_shape(Rng& rng, ShapeKind kind, double scale) {
       return RoundedBox{sizes(rng, scale), a / 4};
     case ShapeKind::solid_mesh:
       return random_solid(rng, scale);
+    case ShapeKind::padded_cylinder:
+      return Padded<Cylinder>{{a, b}, size(rng, scale) / 4};
+    case ShapeKind::padded_cone:
+      return Padded<Cone>{{a, b}, size(rng, scale) / 4};
+    case ShapeKind::padded_ellipsoid:
+      return Padded<Ellipsoid>{{sizes(rng, scale)}, a / 4};
+    case ShapeKind::padded_hull:
+      return Padded<Hull>{std::get<Hull>(random_hull(rng, scale)), a / 4};
   }
   return Sphere{a};
 }

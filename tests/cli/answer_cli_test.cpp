@@ -68,6 +68,28 @@ TEST_CASE("two bodies on the command line are answered with certificates", "[ans
   check_columns(help.out);
 }
 
+TEST_CASE("a body may be padded, in words or as a shape of its own", "[answer]") {
+  const Workspace w("answer-padding");
+  const auto gap = [&](const std::string& a, const std::string& b) {
+    const Run r = w.touchstone("answer --json '" + a + "' '" + b + "'");
+    INFO(r.out << r.err);
+    CHECK(r.code == 0);
+    const json j = lines_of(r).at(0);
+    CHECK(j.at("certified") == true);
+    return j.at("gap").at(0).get<double>();
+  };
+  // The rim at (0.5, 0, 1), and a point at distance 1 from it.
+  CHECK(gap("cylinder 0.5 1 pad 0.25", "sphere 0.25 at 1.1 0 1.8") == Approx(0.5));
+  CHECK(gap("padded_cylinder 0.5 1 0.25", "sphere 0 at 1.1 0 1.8 pad 0.25") == Approx(0.5));
+  CHECK(gap("padded_hull 0 0 0 1 0 0 0 1 0 0 0 1 0.25", "sphere 0.5 at -2 0.25 0.25") == Approx(1.25));
+  CHECK(gap("hull 0 0 0 1 0 0 0 1 0 0 0 1 pad 0.25", "box 1 1 1 at -2 0 0 pad 0.25") == Approx(0.5));
+  CHECK(gap("half_space 0 0 2 1 pad 0.25", "sphere 0.5 at 0 0 2") == Approx(0.75));
+  CHECK(w.touchstone("answer 'sphere 1 pad -1' 'sphere 1'").code == 2);
+  CHECK(w.touchstone("answer 'sphere 1 pad' 'sphere 1'").code == 2);
+  CHECK(w.touchstone("answer 'sphere 1 pad 1 pad 2' 'sphere 1'").code == 2);
+  CHECK(w.touchstone("answer 'padded_hull 0 0 0 1 0 0 0 1 0' 'sphere 1'").code == 2);
+}
+
 TEST_CASE("points inside round bodies prove a gap less the radii, and the proof says so", "[answer]") {
   const Workspace w("answer-radii");
   const Run round = w.touchstone("answer 'box 1 1 1' 'sphere 1 at 3 0 0'");

@@ -69,6 +69,34 @@ TEST_CASE("import writes a scene that other commands read, and they read the rob
   CHECK(w.touchstone("view " + files + "arm.urdf --broad --json").code == 0);
 }
 
+TEST_CASE("--padding adds to every shape, and to meshes only as hulls", "[cli][import]") {
+  const Workspace w("import-padding");
+  const auto shapes = [&](const std::string& options) {
+    REQUIRE(w.touchstone("import " + files + "arm.urdf -o scene.json " + options).code == 0);
+    return test::parsed<Json>(read_all(w.dir / "scene.json"))["shapes"];
+  };
+  const Json plain = shapes(""), padded = shapes("--padding 0.01");
+  REQUIRE(plain.size() == padded.size());
+  std::size_t compared = 0;
+  for (std::size_t i = 0; i < plain.size(); ++i) {
+    const std::string type = plain[i]["type"];
+    INFO(type);
+    if (type == "box") CHECK(padded[i]["type"] == "rounded_box");
+    if (type == "box") CHECK(padded[i]["radius"] == 0.01);
+    if (type == "cylinder") CHECK(padded[i]["padding"] == 0.01);
+    if (type == "sphere") CHECK(padded[i]["radius"] == plain[i]["radius"].get<double>() + 0.01);
+    compared += type == "box" || type == "cylinder" || type == "sphere";
+  }
+  CHECK(compared > 2);
+  w.write("mesh.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+  const auto mesh = w.touchstone("import mesh.obj --padding 0.01");
+  CHECK(mesh.code == 2);
+  CHECK(has(mesh.err, "--convex replaces meshes by their hulls"));
+  CHECK(w.touchstone("import mesh.obj --padding 0.01 --convex").code == 0);
+  CHECK(w.touchstone("import mesh.obj --padding -1").code == 2);
+  CHECK(w.touchstone("import mesh.obj --convex --padding nan").code == 2);
+}
+
 TEST_CASE("a trajectory is a script, and filtered pairs are not asked", "[cli][import]") {
   const Workspace w("import");
   w.write("t.csv", "time,j2,slide\n0,0,0\n1,1.2,0.1\n2,-1.9,0\n");

@@ -1,4 +1,6 @@
 // Engines that `engines --install` compiles: what is said about them before, and what they answer afterwards.
+#include <bit>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -136,4 +138,110 @@ TEST_CASE("routes of optional engines are those of their libraries", "[optional_
   CHECK(routes::route_of("mujoco2", cylinder) == "libccd");
   CHECK(routes::route_of("mujoco2", {Question::contact, ShapeKind::half_space, ShapeKind::hull}) ==
         "half-space");
+}
+
+namespace {
+
+// The records of an MCAP file: an opcode, a length, fields. Strings and byte lists are preceded by their
+// length.
+class McapFile {
+ public:
+  McapFile() : bytes_("\x89MCAP0\r\n") { record(1, text("") + text("test")); }
+  std::string end() {
+    record(0x0f, number(0, 4));
+    record(2, number(0, 8) + number(0, 8) + number(0, 4));
+    return bytes_ + "\x89MCAP0\r\n";
+  }
+  void channel(const std::string& schema, const std::string& encoding) {
+    record(3, number(1, 2) + text(schema) + text("ros2msg") + text(""));
+    record(4, number(1, 2) + number(1, 2) + text("/joint_states") + text(encoding) + text(""));
+  }
+  void message(std::uint64_t ns, const std::string& data) {
+    record(5, number(1, 2) + number(0, 4) + number(ns, 8) + number(ns, 8) + data);
+  }
+  static std::string number(std::uint64_t value, int size) {
+    std::string s;
+    for (int i = 0; i < size; ++i) s += static_cast<char>(value >> (8 * i) & 0xffU);
+    return s;
+  }
+  static std::string text(const std::string& s) { return number(s.size(), 4) + s; }
+
+ private:
+  void record(int opcode, const std::string& content) {
+    bytes_ += static_cast<char>(opcode) + number(content.size(), 8) + content;
+  }
+  std::string bytes_;
+};
+
+// One joint in the encoding of ROS 2: time, an empty frame name, names, positions, no velocities, no efforts.
+std::string joint_state(const std::string& name, double position) {
+  std::string s = McapFile::number(0, 8) + McapFile::number(1, 4) + std::string(1, '\0');
+  const auto align = [&](std::size_t n) { s.resize((s.size() + n - 1) / n * n); };
+  align(4);
+  s += McapFile::number(1, 4) + McapFile::number(name.size() + 1, 4) + name + '\0';
+  align(4);
+  s += McapFile::number(1, 4);
+  align(8);
+  s += McapFile::number(std::bit_cast<std::uint64_t>(position), 8) + McapFile::number(0, 8);
+  return std::string("\0\1\0\0", 4) + s;
+}
+
+std::string recording() {
+  McapFile f;
+  f.channel("sensor_msgs/msg/JointState", "cdr");
+  f.message(2'000'000'000, joint_state("slide", 0.1));
+  f.message(1'000'000'000, joint_state("j2", 0.25));
+  f.message(3'000'000'000, joint_state("j2", 1.2));
+  return f.end();
+}
+
+}  // namespace
+
+TEST_CASE("a trajectory in an MCAP recording, whose reader is named where it is missing",
+          "[optional_engines]") {
+  const std::string arm =
+      "import " TS_SOURCE_DIR "/tests/scenarios/import/files/arm.urdf -o scene.json --trajectory ";
+  const Workspace w("mcap");
+  w.write("t.mcap", recording());
+  const Run none = w.touchstone(arm + "t.mcap", "TOUCHSTONE_NPM=" + (w.dir / "none").string());
+  CHECK(none.code == 2);
+  if (has_command("node"))
+    CHECK(has(none.err, "t.mcap: is read by packages of npm that are not installed: npm install --prefix"));
+  else
+    CHECK(has(none.err, "node: is not installed"));
+  CHECK(has(w.touchstone(arm + "missing.mcap").err, "missing.mcap: no such file"));
+
+  const char* chosen = std::getenv("TOUCHSTONE_NPM");
+  const auto npm = chosen ? std::filesystem::path(chosen) : std::filesystem::path(TS_BINARY_DIR) / "npm";
+  for (const char* package : {"core", "support"})
+    if (!has_command("node") ||
+        !std::filesystem::exists(npm / "node_modules/@mcap" / package / "package.json"))
+      return skip("@mcap/core and @mcap/support are not installed in " + npm.string());
+  w.write("t.csv", "time,j2,slide\n1,0.25,0.1\n2,1.2,0.1\n");
+  REQUIRE(w.touchstone(arm + "t.csv").code == 0);
+  const std::string expected = read_all(w.dir / "scene.json");
+  const Run read = w.touchstone(arm + "t.mcap");
+  INFO(read.out << read.err);
+  REQUIRE(read.code == 0);
+  CHECK(read_all(w.dir / "scene.json") == expected);
+  CHECK(has(read.out, "steps"));
+
+  const auto said = [&](const std::string& bytes) {
+    w.write("bad.mcap", bytes);
+    const Run r = w.touchstone(arm + "bad.mcap");
+    CHECK(r.code == 2);
+    return r.err;
+  };
+  CHECK(has(said("x"), "bad.mcap: "));
+  CHECK(has(said(recording().substr(0, 150)), "bad.mcap: "));
+  McapFile empty;
+  CHECK(has(said(empty.end()), "bad.mcap: has no joint states"));
+  McapFile unknown;
+  unknown.channel("sensor_msgs/msg/JointState", "cdr");
+  unknown.message(1, joint_state("no_such_joint", 1));
+  CHECK(has(said(unknown.end()), "no_such_joint"));
+  McapFile cut;
+  cut.channel("sensor_msgs/msg/JointState", "cdr");
+  cut.message(1, joint_state("j2", 1).substr(0, 20));
+  CHECK(has(said(cut.end()), "a message ends too early"));
 }

@@ -19,6 +19,11 @@ std::vector<Shape> one_of_each(Rng& r) {
     Shape s = shape_of_kind(static_cast<ShapeKind>(k));
     if (std::holds_alternative<RoundedBox>(s))
       s = RoundedBox{{0.5, 0.75, 0.25}, 0.125};
+    else if (k >= static_cast<int>(ShapeKind::padded_cylinder))
+      s = *padded(std::array<Shape, 4>{Cylinder{0.5, 0.75}, Cone{0.75, 0.5}, Ellipsoid{Vec3(0.25, 0.5, 1)},
+                                       make_hull({{1, 0, 0}, {-1, 0, 0.5}, {0, 1, 0}, {0, 0, 1}})}
+                      [static_cast<std::size_t>(k) - static_cast<std::size_t>(ShapeKind::padded_cylinder)],
+                  0.125);
     else if (is_convex(kind_of(s)))
       s = random_shape(r, static_cast<ShapeKind>(k), false);
     if (std::holds_alternative<Hull>(s)) {

@@ -75,14 +75,43 @@ std::vector<Row> rows() {
   };
 }
 
+// Where only a round edge or corner is that far away, too.
+std::vector<Row> padded_rows() {
+  const Vec3 x = Vec3::UnitX(), y = Vec3::UnitY(), z = Vec3::UnitZ(), slanted(0.6, 0, 0.8),
+             skew = Vec3(2, 3, 6) / 7;
+  const Padded<Cylinder> can{{0.5, 1}, 0.25};
+  const Padded<Hull> cube{unit_cube_from_corner(), 0.25};
+  const Sphere ball{0.25};
+  return {
+      {"a padded cylinder's end", pair_scene(can, ball, Vec3(0.1, 0, 1.4)), -0.1, z},
+      {"a padded cylinder's rim is round", pair_scene(can, ball, Vec3(0.5, 0, 1) + slanted), 0.5, slanted},
+      {"a padded cylinder's rim overlaps", pair_scene(can, ball, Vec3(0.5, 0, 1) + 0.4 * slanted), -0.1,
+       slanted},
+      {"a padded cone's apex is round", pair_scene(Padded<Cone>{{1, 1}, 0.25}, ball, Vec3(0, 0, 1.75)), 0.25,
+       z},
+      {"a padded hull's edge is round", pair_scene(cube, ball, Vec3(1, 0.5, 1) + slanted), 0.5, slanted},
+      {"two padded hulls overlap", pair_scene(cube, cube, Vec3(0.1, 1.4, 0.1)), -0.1, y},
+      {"a rounded box's corner",
+       pair_scene(RoundedBox{Vec3(1, 0.5, 0.25), 0.25}, ball, Vec3(1, 0.5, 0.25) + skew), 0.5, skew},
+      {"a padded ellipsoid", pair_scene(Padded<Ellipsoid>{{Vec3(1, 0.5, 0.25)}, 0.25}, ball, Vec3(1.4, 0, 0)),
+       -0.1, x},
+  };
+}
+
+bool is_padded(const Scene& s) {
+  return std::ranges::any_of(s.shapes, [](const Shape& x) { return kind_of(x) > last_common_shape; });
+}
+
 bool pair_has(const Scene& s, ShapeKind k) { return kind_of(s.shapes[0]) == k || kind_of(s.shapes[1]) == k; }
 
 /// Questions that the engine does not support at all.
 bool must_be_unsupported(const Subject& s, const Row& row, Question q) {
+  if (s.is("fcl") && is_padded(row.scene)) return q == Question::contact;
   const bool unbounded = pair_has(row.scene, ShapeKind::half_space) || pair_has(row.scene, ShapeKind::mesh);
   if (s.is("libccd")) return q == Question::distance || unbounded;
   if (s.is("bullet"))
-    return pair_has(row.scene, ShapeKind::ellipsoid) || (s.has("-sim") && q == Question::distance);
+    return pair_has(row.scene, ShapeKind::ellipsoid) || pair_has(row.scene, ShapeKind::padded_ellipsoid) ||
+           (s.has("-sim") && q == Question::distance);
   return false;
 }
 
@@ -194,6 +223,30 @@ TEST_CASE("simple pairs have the obvious answers in both orders", "[oracles][con
   CHECK(engines == static_cast<int>(built_plugins().size()) * 4);
   // Of 150 questions per engine, the most limited one (libccd) answers 80.
   CHECK(count.checked >= 80 * engines);
+}
+
+TEST_CASE("padded shapes have round edges, as far away as they should be",
+          "[oracles][conformance][optional]") {
+  Count count;
+  int engines = 0;
+  for_each_engine([&](Subject s) {
+    if (s.engine.card().more_shapes.empty()) return;
+    ++engines;
+    for (const Row& row : padded_rows()) {
+      check_row(s, placed(row), count);
+      check_row(s, swapped(placed(row)), count);
+    }
+    const Scene scene = padded_rows()[0].scene;
+    const auto received = ask(s, case_of(scene, {{Question::overlap, 0, 1}})).received;
+    REQUIRE(received.shapes[0]);
+    const auto* held = std::get_if<Padded<Cylinder>>(&*received.shapes[0]);
+    REQUIRE(held);
+    CHECK(held->inner.radius == Approx(0.5));
+    CHECK(held->inner.half_height == Approx(1));
+    CHECK(held->padding == Approx(0.25));
+  });
+  if (engines == 0) return test::skip("no engine that takes padded shapes is built in");
+  CHECK(count.checked >= 16 * engines);
 }
 
 TEST_CASE("engines report the scene that they hold", "[oracles][conformance][optional]") {

@@ -15,7 +15,7 @@ import json
 import re
 import sys
 from fractions import Fraction as Q
-from math import isqrt
+from math import hypot, isqrt
 
 sys.set_int_max_str_digits(0)
 POINT_FACTOR = Q(1, 2**50)  # how far support points may be outside a core, in units of their largest coordinate
@@ -82,6 +82,8 @@ class Body:
         self.origin = add(vec(pose.get("translation", (0, 0, 0))), shift)
         self.kind, self.plane, self.pieces = shape["type"], None, []
         self.ball = Q(float(shape["radius"])) if self.kind in ("sphere", "capsule", "rounded_box") else Q(0)
+        if self.kind.startswith("padded_"):
+            self.ball, self.kind = Q(float(shape["padding"])), self.kind[len("padded_"):]
         if self.kind == "half_space":
             normal = self.turned(vec(shape["normal"]))
             self.plane = (normal, Q(float(shape["offset"])) + dot(normal, self.origin))
@@ -108,7 +110,41 @@ class Body:
         if not any(axes for _, axes in self.pieces):
             v = nearest([sub(c, x) for c, _ in self.pieces])
             return dot(v, v) <= r * r
-        u, g = tuple(dot(a, sub(x, self.origin)) for a in self.axes), r / 4
+        u = tuple(dot(a, sub(x, self.origin)) for a in self.axes)
+        if self.core_holds(u, r / 4):
+            return True
+        near = self.near_point([float(c) for c in u]) if r else []
+        for share in (1 - 2.0**-49, 1 - 2.0**-40) if near else ():
+            y = vec([share * c for c in near])
+            if self.core_holds(y, Q(0)) and dot(sub(y, u), sub(y, u)) <= r * r:
+                return True
+        return False
+
+    def near_point(self, u):
+        """In floats, a point of a curved core near u, which is outside; local coordinates."""
+        if self.kind == "ellipsoid":
+            semi = [float(s) for s in self.local[0][1]]
+            low, high = 0.0, max(semi) * hypot(*u)
+            for _ in range(128):
+                t = low + (high - low) / 2
+                if sum((c * s / (s * s + t))**2 for c, s in zip(u, semi)) > 1:
+                    low = t
+                else:
+                    high = t
+            return [c * s * s / (s * s + high) for c, s in zip(u, semi)]
+        low, high, h = float(self.local[0][1][0]), float(self.local[1][1][0]), float(self.local[1][0][2])
+        across, best = hypot(u[0], u[1]), (0.0, -h)
+        corners = [(0.0, -h), (low, -h), (high, h), (0.0, h)]
+        for p, q in zip(corners, corners[1:]):
+            side = (q[0] - p[0], q[1] - p[1])
+            square = side[0]**2 + side[1]**2
+            t = min(1, max(0, ((across - p[0]) * side[0] + (u[2] - p[1]) * side[1]) / square)) if square else 0
+            best = min(best, (p[0] + t * side[0], p[1] + t * side[1]), key=lambda z: hypot(z[0] - across, z[1] - u[2]))
+        k = best[0] / across if across else 0
+        return [k * u[0], k * u[1], best[1]]
+
+    def core_holds(self, u, g):
+        """Whether the curved core, at least g larger along each axis of its own, has the point u."""
         if self.kind == "ellipsoid":
             return sum((u[i] / (s + g))**2 for i, s in enumerate(self.local[0][1])) <= 1
         low, high, h = self.local[0][1][0], self.local[1][1][0], self.local[1][0][2]
@@ -123,6 +159,8 @@ def parts(shape, pose, move=(((Q(0),) * 3, Q(1)), (Q(0),) * 3)):
     if kind in ("mesh", "solid_mesh"):
         points = [vec(p) for p in shape["vertices"]]
         return [Body(shape, pose, [(points[i], zero) for i in t], move) for t in shape["triangles"]]
+    if kind.startswith("padded_"):
+        kind = kind[len("padded_"):]
     h, r = Q(float(shape.get("half_height", 0))), Q(float(shape.get("radius", 0)))
     e = vec(shape.get("half_extents", (0, 0, 0)))
     pieces = {

@@ -72,8 +72,10 @@ def place(shape, m, c):
         x, y, z = exact(shape["half_extents"])
         signs = [(1, 1, 1), (-1, 1, 1), (1, -1, 1), (1, 1, -1), (-1, -1, 1), (-1, 1, -1), (1, -1, -1), (-1, -1, -1)]
         return Poly([at((i * x, j * y, k * z)) for i, j, k in signs], F(shape.get("radius", 0)))
-    if kind == "hull":
-        return Poly([at(v) for v in sorted({exact(v) for v in shape["vertices"]})])
+    if kind in ("hull", "padded_hull"):
+        return Poly([at(v) for v in sorted({exact(v) for v in shape["vertices"]})], F(shape.get("padding", 0)))
+    if kind.startswith("padded_"):
+        raise CannotTell("round shapes with padding are not judged here")
     if kind == "solid_mesh":
         raise CannotTell("solid meshes are not judged here")
     if kind == "half_space":
@@ -89,6 +91,8 @@ def place(shape, m, c):
 def extent(shape):
     """Full length along the body's axes; for hull and mesh also the farthest vertex; for a half-space its plane."""
     kind = shape["type"]
+    if kind.startswith("padded_"):
+        return extent({**shape, "type": kind[len("padded_"):]}) + 2 * F(shape["padding"])
     if kind == "half_space":
         n = exact(shape["normal"])
         return abs(F(shape["offset"])) / sqrt_lo(dot(n, n))

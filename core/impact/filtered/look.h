@@ -65,8 +65,8 @@ class Looker {
         v_.meeting = true;
         break;
       }
-      if (length - w_.radii() < v_.upper) {
-        v_.upper = length - w_.radii();
+      if (const double upper = upper_of(v); upper < v_.upper) {
+        v_.upper = upper;
         best_features = f_;
       }
     }
@@ -91,8 +91,18 @@ class Looker {
       v = x_.offset;
       return true;
     }
-    v_.upper = v.norm() - w_.radii();
+    v_.upper = upper_of(v);
     return true;
+  }
+
+  // The foot on a triangle that is a needle may be nearer than any of its points, by the rounding of its
+  // normal times its length, which the balls' radii keep from going to 0. A weighted mean is one of its
+  // points.
+  double upper_of(const Vec& v) const {
+    if (simplex_.size < 3 || w_.radii() == 0) return v.norm() - w_.radii();
+    Vec mean = Vec::Zero();
+    for (std::size_t k = 0; k < 3; ++k) mean += f_.weight[k] * simplex_.p[k].w;
+    return mean.norm() - w_.radii();
   }
 
   bool add(const Side& s, Vec& v) {

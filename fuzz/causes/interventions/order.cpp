@@ -79,7 +79,7 @@ std::optional<Case> reorder_hull(const Case& c) {
   Case r = c;
   bool any = false;
   for (Shape& shape : r.scene.shapes)
-    if (auto* hull = std::get_if<Hull>(&shape)) {
+    if (auto* hull = hull_if(shape)) {
       std::vector<Vec3> vertices = hull->vertices;
       std::reverse(vertices.begin(), vertices.end());
       *hull = make_hull(std::move(vertices));

@@ -131,6 +131,12 @@ struct FormOf {
   CoreForm operator()(const Ellipsoid& s) const { return {K::ellipsoid, s.semi_axes, 0}; }
   CoreForm operator()(const Hull&) const { return {K::vertices, Vec3::Zero(), 0}; }
   CoreForm operator()(const RoundedBox& s) const { return {K::box, s.half_extents, s.radius}; }
+  template <class S>
+  CoreForm operator()(const Padded<S>& s) const {
+    CoreForm f = (*this)(s.inner);
+    f.radius = s.padding;
+    return f;
+  }
   CoreForm operator()(const HalfSpace&) const { return {}; }
   CoreForm operator()(const TriangleMesh&) const { return {}; }
 
@@ -216,8 +222,9 @@ Frame frame_at(const Placed& p, const Motion& m, double t, const Vec3& origin) {
 
 CoreForm core_form(const Placed& p) {
   CoreForm f = std::visit(FormOf{}, *p.shape);
-  const bool ball = f.kind == CoreForm::Kind::ellipsoid && std::holds_alternative<Pose>(p.pose) &&
-                    f.size.x() == f.size.y() && f.size.y() == f.size.z();
+  const bool ball = f.kind == CoreForm::Kind::ellipsoid && f.radius == 0 &&
+                    std::holds_alternative<Pose>(p.pose) && f.size.x() == f.size.y() &&
+                    f.size.y() == f.size.z();
   return ball ? CoreForm{CoreForm::Kind::origin, Vec3::Zero(), f.size.x()} : f;
 }
 
@@ -231,7 +238,7 @@ std::optional<std::vector<Vec3>> core_points(const Placed& p) {
     case CoreForm::Kind::box:
       return corners(f.size);
     case CoreForm::Kind::vertices:
-      return std::get<Hull>(*p.shape).vertices;
+      return hull_if(*p.shape)->vertices;
     case CoreForm::Kind::none:
     case CoreForm::Kind::cylinder:
     case CoreForm::Kind::cone:
@@ -243,8 +250,7 @@ std::optional<std::vector<Vec3>> core_points(const Placed& p) {
 
 Solid make_body(const Placed& p, const Frame& f) {
   const CoreForm form = core_form(p);
-  if (form.kind == CoreForm::Kind::vertices)
-    return make_body(std::get<Hull>(*p.shape).vertices, form.radius, f);
+  if (form.kind == CoreForm::Kind::vertices) return make_body(hull_if(*p.shape)->vertices, form.radius, f);
   if (form.has_points()) return make_body(*core_points(p), form.radius, f);
   Solid b;
   b.kind = solid_kind(form.kind);

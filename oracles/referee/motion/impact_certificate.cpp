@@ -153,8 +153,8 @@ bool is_solid(const Hull& hull) {
 // The pose of a turning body at t > 0 is known only up to rounding, and the checker requires that a ball of
 // that size about the common point lies inside the body. A surface has no room for one.
 bool has_room(const Placed& p, const Motion& m) {
-  if (m.angular.isZero(0)) return true;
-  const auto* hull = std::get_if<Hull>(p.shape);
+  if (m.angular.isZero(0) || core_form(p).radius > 0) return true;
+  const auto* hull = hull_if(*p.shape);
   return hull ? is_solid(*hull) : !std::holds_alternative<TriangleMesh>(*p.shape);
 }
 

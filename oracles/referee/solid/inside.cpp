@@ -153,7 +153,7 @@ std::vector<Vec3> points_of(const Placed& p) {
       if (seen.insert(root(t[0])).second) r.push_back(m->vertices[static_cast<std::size_t>(t[0])]);
     return r;
   }
-  if (const auto* h = std::get_if<Hull>(p.shape)) return {h->vertices.front()};
+  if (const auto* h = hull_if(*p.shape)) return {h->vertices.front()};
   return {Vec3::Zero()};
 }
 

@@ -224,7 +224,7 @@ class Pair {
 
   static Vec3 centre_of(const Placed& p) {
     const TriangleMesh* m = triangles_if(*p.shape);
-    const auto* h = std::get_if<Hull>(p.shape);
+    const auto* h = hull_if(*p.shape);
     if (!m && !h) return translation_of(p);
     const std::vector<Vec3>& v = m ? m->vertices : h->vertices;
     const Solid s = make_body(v, 0, frame_of(p, Vec3::Zero()));

@@ -71,6 +71,17 @@ std::string without_blanks(std::string_view s) {
   return std::string(s.substr(first, s.find_last_not_of(" \t\"") - first + 1));
 }
 
+void pad_shapes(Model& m, double padding) {
+  for (ModelLink& link : m.links)
+    for (ModelShape& s : link.shapes) {
+      auto larger = padded(s.shape, padding);
+      if (!larger)
+        throw InputError("--padding", "the mesh of link " + printable(link.name) +
+                                          " cannot be padded; --convex replaces meshes by their hulls");
+      s.shape = *std::move(larger);
+    }
+}
+
 bool is_time(const std::string& column) { return column == "time" || column == "t" || column == "stamp"; }
 
 }  // namespace
@@ -92,6 +103,7 @@ ImportedModel import_model(const std::filesystem::path& file, const ImportOption
   ImportedModel r;
   r.file = file.string();
   r.model = format->read(file, context);
+  if (options.padding != 0) pad_shapes(r.model, options.padding);
   check_size(r.model, file.string());
   const bool is_urdf =
       format->read == read_urdf || (format->read == read_xml && XmlFile(file).root().name() == "robot");
@@ -107,7 +119,7 @@ ImportedModel import_model(const std::filesystem::path& file, const ImportOption
   if (options.trajectory.empty())
     r.configurations.push_back(std::move(first));
   else
-    r.configurations = read_trajectory(r.model, first, options.trajectory);
+    r.configurations = read_trajectory(r.model, first, options.trajectory, options.trajectory_text);
   r.notes = context.notes();
   return r;
 }
@@ -131,8 +143,8 @@ Scene scene_of(const ImportedModel& imported) {
 }
 
 std::vector<Configuration> read_trajectory(const Model& model, const Configuration& standard,
-                                           const std::filesystem::path& file) {
-  TextLines in(file, ',');
+                                           const std::filesystem::path& file, const std::string& text) {
+  TextLines in = text.empty() ? TextLines(file, ',') : TextLines(file, text, ',');
   in.need("a header with the names of joints");
   std::vector<std::string> columns;
   Configuration scratch = standard;

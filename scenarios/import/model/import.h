@@ -32,9 +32,10 @@ ImportedModel import_model(const std::filesystem::path& file, const ImportOption
 Scene scene_of(const ImportedModel& imported);
 
 /// The rows of a CSV file whose header names joint variables; the columns time, t and stamp are skipped.
-/// Joints without a column keep their values in `standard`.
+/// Joints without a column keep their values in `standard`. A `text` that is not empty takes the place of the
+/// file's.
 std::vector<Configuration> read_trajectory(const Model& model, const Configuration& standard,
-                                           const std::filesystem::path& file);
+                                           const std::filesystem::path& file, const std::string& text = "");
 
 /// The links of `other` are added as they are, with their names; no pair of its links is asked, nor of it and
 /// anchored links.

@@ -221,3 +221,51 @@ TEST_CASE("a mesh may be declared solid, and one that encloses nothing is refuse
        "vertex index 4 is outside 0..3"},
   });
 }
+
+TEST_CASE("any shape but a mesh may state a padding, and a height field is a mesh",
+          "[scene][codec][bad-input]") {
+  const auto scene = [](const std::string& shape) {
+    return body_scene(R"({"shape":0,"static":true})", shape);
+  };
+  const auto shape_of = [&](const std::string& shape) {
+    const Scene s = scene_from_text(scene(shape));
+    CHECK(scene_from_text(to_text(s)).shapes[0] == s.shapes[0]);
+    return s.shapes[0];
+  };
+  CHECK(shape_of(R"({"type":"sphere","radius":1,"padding":0.5})") == Shape(Sphere{1.5}));
+  CHECK(shape_of(R"({"type":"box","half_extents":[1,2,3],"padding":0.5})") ==
+        Shape(RoundedBox{Vec3(1, 2, 3), 0.5}));
+  CHECK(shape_of(R"({"type":"cone","radius":1,"half_height":2,"padding":0.5})") ==
+        Shape(Padded<Cone>{{1, 2}, 0.5}));
+  CHECK(shape_of(R"({"type":"cone","radius":1,"half_height":2,"padding":0})") == Shape(Cone{1, 2}));
+  const Shape hull =
+      shape_of(R"({"type":"hull","vertices":[[0,0,0],[1,0,0],[0,1,0],[0,0,1]],"padding":0.5})");
+  REQUIRE(kind_of(hull) == ShapeKind::padded_hull);
+  CHECK(hull_if(hull)->dimension == 3);
+  CHECK(hull_if(hull)->faces.size() == 4);
+  const std::string mesh = R"("vertices":[[0,0,0],[1,0,0],[0,1,0]],"triangles":[[0,1,2]],"padding":0.5})";
+  check_all({
+      {scene(R"({"type":"sphere","radius":1,"padding":-1})"), "f.json: shapes[0].padding",
+       "is not a number of at least 0"},
+      {scene(R"({"type":"sphere","radius":1,"padding":"1"})"), "f.json: shapes[0].padding", ""},
+      {scene(R"({"type":"mesh",)" + mesh), "f.json: shapes[0].padding", "a mesh cannot be padded"},
+      {scene(R"({"type":"padded_cone","radius":1,"half_height":2})"), "f.json: shapes[0]",
+       "field \"padding\" is missing"},
+  });
+
+  const Shape field = shape_of(R"({"type":"height_field","cell":[2,1],"heights":[[0,1],[2,3],[4,5]]})");
+  CHECK(field == Shape(TriangleMesh{{{-1, -1, 0}, {1, -1, 1}, {-1, 0, 2}, {1, 0, 3}, {-1, 1, 4}, {1, 1, 5}},
+                                    {{0, 1, 3}, {0, 3, 2}, {2, 3, 5}, {2, 5, 4}}}));
+  const auto heights = [&](const std::string& cell, const std::string& rows) {
+    return scene(R"({"type":"height_field","cell":)" + cell + R"(,"heights":)" + rows + "}");
+  };
+  check_all({
+      {heights("[1,0]", "[[0,1],[2,3]]"), "f.json: shapes[0].cell[1]", "is not a number above 0"},
+      {heights("[1]", "[[0,1],[2,3]]"), "f.json: shapes[0].cell", ""},
+      {heights("[1,1]", "[[0,1]]"), "f.json: shapes[0].heights", "has fewer than two rows"},
+      {heights("[1,1]", "[[0],[1]]"), "f.json: shapes[0].heights[0]", "has fewer than two heights"},
+      {heights("[1,1]", "[[0,1],[2,3,4]]"), "f.json: shapes[0].heights[1]",
+       "has another number of heights than the first row"},
+      {heights("[1,1]", "[[0,1],[2,\"x\"]]"), "f.json: shapes[0].heights[1][1]", ""},
+  });
+}

@@ -67,6 +67,14 @@ inline Shape nasty_shape(Rng& rng, ShapeKind kind) {
                      {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
       return SolidMesh(std::move(m));
     }
+    case ShapeKind::padded_cylinder:
+      return Padded<Cylinder>{{size(), size()}, size()};
+    case ShapeKind::padded_cone:
+      return Padded<Cone>{{size(), size()}, size()};
+    case ShapeKind::padded_ellipsoid:
+      return Padded<Ellipsoid>{{sizes()}, size()};
+    case ShapeKind::padded_hull:
+      return Padded<Hull>{make_hull(points(1 + static_cast<int>(rng.below(12)))), size()};
   }
   return Sphere{1};
 }

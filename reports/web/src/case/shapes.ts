@@ -26,6 +26,37 @@ const length = (v: V3): number => Math.hypot(...v);
 const farthest = (s: ShapeJson): number => s.vertices!.reduce((most, v) => Math.max(most, length(v)), 0);
 const alongZ = (g: BufferGeometry): BufferGeometry => g.applyMatrix4(new Matrix4().makeRotationX(Math.PI / 2));
 
+const support: Record<"cylinder" | "cone" | "ellipsoid" | "hull", (s: ShapeJson, d: Vector3) => Vector3> = {
+  cylinder: (s, d) => {
+    const k = s.radius! / (Math.hypot(d.x, d.y) || 1);
+    return new Vector3(k * d.x, k * d.y, d.z < 0 ? -s.half_height! : s.half_height!);
+  },
+  cone: (s, d) => {
+    const across = Math.hypot(d.x, d.y), k = s.radius! / (across || 1);
+    const isApex = 2 * s.half_height! * d.z > s.radius! * across;
+    return isApex ? new Vector3(0, 0, s.half_height!) : new Vector3(k * d.x, k * d.y, -s.half_height!);
+  },
+  ellipsoid: (s, d) => {
+    const [x, y, z] = s.semi_axes!;
+    const n = Math.hypot(x * d.x, y * d.y, z * d.z) || 1;
+    return new Vector3((x * x * d.x) / n, (y * y * d.y) / n, (z * z * d.z) / n);
+  },
+  hull: (s, d) =>
+    s.vertices!.map((v) => new Vector3(...v)).reduce((best, v) => (v.dot(d) > best.dot(d) ? v : best)),
+};
+
+/** The points of the surface with the normals of a sphere's grid. */
+function padded(core: keyof typeof support, s: ShapeJson, { scale, fine }: Picture): BufferGeometry {
+  const g = new SphereGeometry(1, 96 * fine, 64 * fine), at = g.getAttribute("position");
+  for (let i = 0; i < at.count; ++i) {
+    const d = new Vector3().fromBufferAttribute(at, i).normalize();
+    const p = support[core](s, d).addScaledVector(d, s.padding!).multiplyScalar(scale);
+    at.setXYZ(i, p.x, p.y, p.z);
+  }
+  g.computeVertexNormals();
+  return g;
+}
+
 const table = {
   sphere: {
     reach: (s) => s.radius!,
@@ -82,6 +113,25 @@ const table = {
   solid_mesh: {
     reach: farthest,
     geometry: (s, { scale }) => triangles(s.vertices!, s.triangles!, scale),
+  },
+  padded_cylinder: {
+    reach: (s) => Math.hypot(s.radius!, s.half_height!) + s.padding!,
+    curved: true,
+    geometry: (s, p) => padded("cylinder", s, p),
+  },
+  padded_cone: {
+    reach: (s) => Math.hypot(s.radius!, s.half_height!) + s.padding!,
+    curved: true,
+    geometry: (s, p) => padded("cone", s, p),
+  },
+  padded_ellipsoid: {
+    reach: (s) => Math.max(...s.semi_axes!) + s.padding!,
+    curved: true,
+    geometry: (s, p) => padded("ellipsoid", s, p),
+  },
+  padded_hull: {
+    reach: (s) => farthest(s) + s.padding!,
+    geometry: (s, p) => padded("hull", s, p),
   },
 } satisfies Record<string, Row>;
 

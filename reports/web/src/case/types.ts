@@ -11,6 +11,7 @@ export interface ShapeJson {
   semi_axes?: V3;
   normal?: V3;
   offset?: number;
+  padding?: number;
   vertices?: V3[];
   triangles?: V3[];
 }
