@@ -72,9 +72,10 @@ void swarm(Rng& rng, Case& c);
 
 // Convex shapes that came later than common_convex_kinds (random_shape.h), each against another of any kind:
 // apart, near, deep, concentric or in motion; some are parallel, and one in four has a thin size or sizes of
-// zero.
+// zero. The padded ones by themselves.
 
 void later_shapes(Rng& rng, Case& c);
+void padded_shapes(Rng& rng, Case& c);
 
 // Questions about margins, for pairs and crowds, and rays: at the boundary between two answers.
 

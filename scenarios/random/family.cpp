@@ -212,6 +212,7 @@ void script(Rng& rng, Case& c) {
 constexpr std::size_t first_later = 28;
 // Those from here on replace a share of the cases of all before them in the same way.
 constexpr std::size_t first_of_margins = 30;
+constexpr std::size_t first_padded = 33;
 
 constexpr Family catalog[] = {
     {"separate", "disjoint pairs, gap 0.1 % to 100 % of their size", 14, separate},
@@ -242,13 +243,14 @@ constexpr Family catalog[] = {
     {"vertices", "hulls of 64 to 300 vertices", 4, many_vertices},
     {"company", "3 to 14 bodies with meshes, groups, ignored pairs: candidates and contacts", 4, company},
     {"dialogue", "3 to 6 bodies, few shapes; pairs queried in turn, in both orders, and again", 5, dialogue},
-    {"later",
-     "rounded boxes and padded shapes against any shape: apart, touching, deep, concentric, in motion", 6,
+    {"later", "rounded boxes against any shape: apart, touching, deep, concentric, in motion", 6,
      later_shapes},
     {"surfaces", "two meshes: apart, touching, crossing, one inside the other, coplanar", 6, two_meshes},
     {"margins", "pairs at a margin: exactly, within ulps, within 2^-40 to 2^-4 of the size", 4, margins},
     {"loose", "2 to 10 bodies: candidate pairs within a margin", 2, loose_crowd},
     {"rays", "rays at and past faces, edges, corners; from inside; ending on the surface", 3, rays},
+    {"padded", "padded cylinders, cones, ellipsoids, hulls against any shape: apart to concentric", 4,
+     padded_shapes},
     // Only when asked for by name: a case takes as long as a hundred others.
     {"endless", "2 to 5 bodies, 300 to 699 queries about their pairs in any order", 0, endless_dialogue},
     // Only when asked for by name: `stability --motions` judges every frame and what changes between them.
@@ -258,6 +260,7 @@ constexpr Family catalog[] = {
 };
 static_assert(catalog[first_later - 1].name == "dialogue");
 static_assert(catalog[first_of_margins - 1].name == "surfaces");
+static_assert(catalog[first_padded - 1].name == "rays");
 
 int total_weight(std::span<const Family> families) {
   return std::accumulate(families.begin(), families.end(), 0,
@@ -289,7 +292,8 @@ const Family& pick(Rng& rng, std::span<const Family* const> among) {
 }
 
 // Streams separate from the case's own.
-constexpr std::uint64_t later_stream = 0x6c61746572ULL, margins_stream = 0x6d617267696e73ULL;
+constexpr std::uint64_t later_stream = 0x6c61746572ULL, margins_stream = 0x6d617267696e73ULL,
+                        padded_stream = 0x706164646564ULL;
 
 // One of the families from `first` on, by its share of all up to `end`; null: none of them.
 const Family* pick_later(std::uint64_t stream, std::uint64_t index, std::size_t first, std::size_t end) {
@@ -309,8 +313,9 @@ const Family& pick(Rng& rng, std::uint64_t seed, std::uint64_t index, std::strin
       named_here[static_cast<std::size_t>(&named(name) - catalog)] = true;
     });
   if (names.empty()) {
-    if (const Family* f = pick_later(seed ^ margins_stream, index, first_of_margins, std::size(catalog)))
+    if (const Family* f = pick_later(seed ^ padded_stream, index, first_padded, std::size(catalog)))
       return *f;
+    if (const Family* f = pick_later(seed ^ margins_stream, index, first_of_margins, first_padded)) return *f;
     if (const Family* f = pick_later(seed ^ later_stream, index, first_later, first_of_margins)) return *f;
   }
   std::vector<const Family*> among;

@@ -1,5 +1,9 @@
-#include "scenarios/random/families.h"
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <span>
 
+#include "scenarios/random/families.h"
 #include "scenarios/random/numbers.h"
 #include "scenarios/random/place.h"
 #include "scenarios/random/random_shape.h"
@@ -7,27 +11,40 @@
 namespace touchstone::fuzz {
 namespace {
 
+constexpr ShapeKind padded_kinds[] = {ShapeKind::padded_cylinder, ShapeKind::padded_cone,
+                                      ShapeKind::padded_ellipsoid, ShapeKind::padded_hull};
+constexpr ShapeKind beside_padded[] = {ShapeKind::padded_cylinder, ShapeKind::padded_cone,
+                                       ShapeKind::padded_ellipsoid, ShapeKind::padded_hull,
+                                       ShapeKind::rounded_box};
+
+constexpr bool is_later(ShapeKind k) {
+  return k > last_common_shape && is_convex(k) &&
+         std::ranges::find(padded_kinds, k) == std::end(padded_kinds);
+}
+
 constexpr auto later_kinds = [] {
   constexpr auto count = [] {
     std::size_t n = 0;
-    for (int k = static_cast<int>(last_common_shape) + 1; k < shape_kind_count; ++k)
-      n += is_convex(static_cast<ShapeKind>(k));
+    for (int k = 0; k < shape_kind_count; ++k) n += is_later(static_cast<ShapeKind>(k));
     return n;
   }();
   std::array<ShapeKind, count> kinds{};
   std::size_t n = 0;
-  for (int k = static_cast<int>(last_common_shape) + 1; k < shape_kind_count; ++k)
-    if (is_convex(static_cast<ShapeKind>(k))) kinds[n++] = static_cast<ShapeKind>(k);
+  for (int k = 0; k < shape_kind_count; ++k)
+    if (is_later(static_cast<ShapeKind>(k))) kinds[n++] = static_cast<ShapeKind>(k);
   return kinds;
 }();
 
-ShapeKind later_kind(Rng& rng) { return later_kinds[rng.below(later_kinds.size())]; }
+using Kinds = std::span<const ShapeKind>;
 
-ShapeKind other_kind(Rng& rng) {
+ShapeKind one_of(Rng& rng, Kinds kinds) { return kinds[rng.below(kinds.size())]; }
+
+// One of `later`, or of the common kinds.
+ShapeKind other_kind(Rng& rng, Kinds later) {
   const auto pick = rng.below(10);
   if (pick == 0) return ShapeKind::half_space;
   if (pick == 1) return ShapeKind::mesh;
-  return pick < 4 ? later_kind(rng) : random_convex_kind(rng);
+  return pick < 4 ? one_of(rng, later) : random_convex_kind(rng);
 }
 
 void set_odd_sizes(Rng& rng, Shape& shape) {
@@ -60,10 +77,8 @@ void set_in_motion(Rng& rng, Scene& s) {
   s.bodies[1].motion = m;
 }
 
-}  // namespace
-
-void later_shapes(Rng& rng, Case& c) {
-  const ShapeKind first = other_kind(rng), second = later_kind(rng);
+void one_of_kinds(Rng& rng, Case& c, Kinds kinds, Kinds partners) {
+  const ShapeKind first = other_kind(rng, partners), second = one_of(rng, kinds);
   Scene s = random_pair(rng, first, second, 1, Vec3::Zero());
   for (Shape& shape : s.shapes)
     if (is_convex(kind_of(shape))) set_odd_sizes(rng, shape);
@@ -84,5 +99,10 @@ void later_shapes(Rng& rng, Case& c) {
   if (!moves && rng.below(8) == 0)
     c.queries = {{Question::candidates, -1, -1}, {Question::scene_contacts, -1, -1}};
 }
+
+}  // namespace
+
+void later_shapes(Rng& rng, Case& c) { one_of_kinds(rng, c, later_kinds, later_kinds); }
+void padded_shapes(Rng& rng, Case& c) { one_of_kinds(rng, c, padded_kinds, beside_padded); }
 
 }  // namespace touchstone::fuzz

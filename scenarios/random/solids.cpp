@@ -16,6 +16,9 @@ ShapeKind partner(Rng& rng) {
   if (pick == 2) return ShapeKind::mesh;
   if (pick < 6) return ShapeKind::solid_mesh;
   if (pick < 8 && may_draw(ShapeKind::rounded_box)) return ShapeKind::rounded_box;
+  if (pick == 8 && may_draw(ShapeKind::padded_hull))
+    return static_cast<ShapeKind>(static_cast<int>(ShapeKind::padded_cylinder) +
+                                  static_cast<int>(rng.below(4)));
   return random_convex_kind(rng);
 }
 

@@ -102,6 +102,25 @@ TEST_CASE("a padded shape rests on a plane, a box and a mesh by its padding", "[
     }
 }
 
+TEST_CASE("the deepest point of a manifold lies on a rim", "[core][padded]") {
+  const Shape a = Padded<Cylinder>{{0.6549367597442901, 0.6778650769857232}, 0.14632727886613167},
+              b = Cylinder{0.0023708191449056688, 0.7477462292220931};
+  const Pose p{Vec3(-1.065920579678589, 0.07983796614382749, 0.7016588758411934),
+               {-0.7448737938339958, 0.4340838025184384, -0.0028286375030144285, -0.5066816381717021}};
+  const Pose q{Vec3::Zero(),
+               {-0.41538711282810814, -0.8455566574736981, 0.217067043527609, -0.2556743712467459}};
+  for (const bool exchanged : {false, true}) {
+    const ContactAnswer c = exchanged ? contact({&b, q}, {&a, p}) : contact({&a, p}, {&b, q});
+    REQUIRE(c.manifold.size() == 3);
+    const Vec3 to_b = exchanged ? Vec3(-c.normal) : c.normal;
+    const auto& deepest = *std::ranges::max_element(c.manifold, {}, &ContactPoint::depth);
+    const Vec3 on_b =
+        rotation_matrix(q.rotation).transpose() * (deepest.position - to_b * (deepest.depth / 2));
+    CHECK(std::hypot(on_b.x(), on_b.y()) == Approx(0.0023708191449056688).epsilon(0).margin(1e-15));
+    CHECK(std::abs(on_b.z()) == Approx(0.7477462292220931).epsilon(0).margin(1e-15));
+  }
+}
+
 TEST_CASE("boxes around padded shapes hold them, and no more", "[core][padded]") {
   Rng r(42);
   for (const Shape& core : cores()) {

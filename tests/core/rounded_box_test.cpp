@@ -60,10 +60,12 @@ void check_in_motion(const Pair& p, Tally& n) {
 
 }  // namespace
 
-TEST_CASE("rounded boxes: distance, contact and time of impact agree with the referee", "[core][rounded]") {
+TEST_CASE("rounded boxes and padded shapes: distance, contact and time of impact agree with the referee",
+          "[core][rounded][padded]") {
+  const std::string family = GENERATE("later", "padded");
   Tally n;
   for (std::uint64_t i = 0; i < 3000; ++i) {
-    const Case c = fuzz::make_case(5, i, "later");
+    const Case c = fuzz::make_case(5, i, family);
     INFO(c.id);
     const Pair p(c.scene);
     if (c.scene.bodies[1].motion || c.scene.bodies[0].motion)

@@ -192,8 +192,9 @@ void judge_core(Engine& engine, const Case& c, Count& n) {
 }  // namespace
 
 TEST_CASE("the core's gradients are right in random cases", "[judge][gradient][random]") {
-  constexpr const char* families[] = {"separate", "near", "shallow", "deep", "contained", "lattice", "far",
-                                      "parallel", "zero", "unequal", "mesh", "surfaces",  "later"};
+  constexpr const char* families[] = {"separate", "near",     "shallow",  "deep",  "contained",
+                                      "lattice",  "far",      "parallel", "zero",  "unequal",
+                                      "mesh",     "surfaces", "later",    "padded"};
   // Several normals of one depth, of which normal and points show different ones; features of 1e-9 of the
   // size.
   constexpr std::uint64_t found_in_long_runs[] = {2734,   3753,   7429,   8078,  8601,

@@ -93,6 +93,11 @@ class FeatureCorners {
   Corners<R>& out_;
 };
 
+/// The nearest points of round cores that a ball keeps apart are known across the normal to the root of their
+/// distance's error, in units of size. A support point that near is the foot itself, on the surface to
+/// rounding. Tested by: tests/core "the deepest point of a manifold lies on a rim".
+inline constexpr double foot_factor = 0x1p-26;
+
 /// Two edges: their common interval when they are collinear, otherwise their crossing. The ends of `a` may be
 /// exchanged.
 template <class R>
@@ -169,9 +174,18 @@ Patch<R> contact_patch(const ConvexBody<R>& a, const ConvexBody<R>* b, const Rel
   // Without a region the deepest point alone; and corners that represent a rim may all be less deep than the
   // rim between them.
   const auto less_deep = [&](const PatchPoint<R>& p) { return p.depth < depth - tolerance; };
+  // Of the body with the smaller ball, on whose surface a lateral error counts most.
+  const auto middle_on_foot = [&] {
+    if (!b || a.radius + b->radius == 0) return *middle;
+    const V3<R> foot = a.radius < b->radius
+                           ? V3<R>(top_a + n * (a.radius + gap / 2))
+                           : V3<R>(at.b_to_a * top_b + at.offset - n * (b->radius + gap / 2));
+    const R same = static_cast<R>(foot_factor) * size;
+    return (foot - *middle).squaredNorm() <= same * same ? foot : *middle;
+  };
   if (middle && std::all_of(patch.point.begin(), patch.point.begin() + patch.size, less_deep) &&
       patch.size < Patch<R>::capacity)
-    patch.point[static_cast<std::size_t>(patch.size++)] = {*middle, depth, 0};
+    patch.point[static_cast<std::size_t>(patch.size++)] = {middle_on_foot(), depth, 0};
   const R near = std::min<R>(depth / 2, static_cast<R>(tolerance::manifold_region_factor) * size);
   const bool has_face = !b || fa.size >= 3 || fb.size >= 3;
   if (has_face || patch.size > 1 || near <= tolerance) return patch;
