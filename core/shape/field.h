@@ -29,14 +29,13 @@ Field(std::string_view, T S::*, Domain) -> Field<S, T>;
 template <class Outer, class S, class T>
 struct InnerField {
   S Outer::*inner;
-  Field<S, T> field;
-  std::string_view name = field.name;
-  Domain domain = field.domain;
+  T S::*member;
+  std::string_view name;
+  Domain domain;
 
-  constexpr auto& of(auto& shape) const { return shape.*inner.*field.member; }
+  constexpr InnerField(S Outer::*in, const Field<S, T>& f)
+      : inner(in), member(f.member), name(f.name), domain(f.domain) {}
+  constexpr auto& of(auto& shape) const { return shape.*inner.*member; }
 };
-
-template <class Outer, class S, class T>
-InnerField(S Outer::*, Field<S, T>) -> InnerField<Outer, S, T>;
 
 }  // namespace touchstone

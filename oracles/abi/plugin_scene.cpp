@@ -20,13 +20,17 @@ Vec3 vec3(const double* p) { return {p[0], p[1], p[2]}; }
 static_assert(shape_kind_count == TS_LAST_SHAPE + 1, "append the new kind to ts_shape_kind");
 static_assert(static_cast<int>(last_common_shape) == TS_LAST_COMMON_SHAPE);
 
+template <class T>
+constexpr std::size_t places_of = std::is_same_v<T, double> ? 1
+                                  : std::is_same_v<T, Vec3> ? 3
+                                                            : 0;
 template <class S, class T>
 constexpr std::size_t places(const Field<S, T>&) {
-  return std::is_same_v<T, double> ? 1 : std::is_same_v<T, Vec3> ? 3 : 0;
+  return places_of<T>;
 }
 template <class Outer, class S, class T>
-constexpr std::size_t places(const InnerField<Outer, S, T>& f) {
-  return places(f.field);
+constexpr std::size_t places(const InnerField<Outer, S, T>&) {
+  return places_of<T>;
 }
 template <class... S>
 constexpr bool fit_in_size(const std::variant<S...>*) {

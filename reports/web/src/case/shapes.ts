@@ -47,7 +47,7 @@ const support: Record<"cylinder" | "cone" | "ellipsoid" | "hull", (s: ShapeJson,
 
 /** The points of the surface with the normals of a sphere's grid. */
 function padded(core: keyof typeof support, s: ShapeJson, { scale, fine }: Picture): BufferGeometry {
-  const g = new SphereGeometry(1, 96 * fine, 64 * fine), at = g.getAttribute("position");
+  const g = alongZ(new SphereGeometry(1, 96 * fine, 64 * fine)), at = g.getAttribute("position");
   for (let i = 0; i < at.count; ++i) {
     const d = new Vector3().fromBufferAttribute(at, i).normalize();
     const p = support[core](s, d).addScaledVector(d, s.padding!).multiplyScalar(scale);
