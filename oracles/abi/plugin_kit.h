@@ -42,6 +42,33 @@ struct Unsupported : std::runtime_error {
   throw Unsupported(std::string(library) + " has no such shape");
 }
 
+/// A padded kind as the kind of its core, and where the radius of the ball around that is in ts_shape::size;
+/// any other kind as itself, without a ball. The core's own numbers are the first ones of `size`.
+struct Core {
+  int kind;
+  int ball = -1;
+  double radius_of(const ts_shape& s) const { return ball < 0 ? 0 : s.size[ball]; }
+};
+/// For "more_shapes" of an engine that takes them all.
+inline const std::vector<std::string> padded_shapes{"rounded_box", "padded_cylinder", "padded_cone",
+                                                    "padded_ellipsoid", "padded_hull"};
+inline Core core_of(int kind) {
+  switch (kind) {
+    case TS_ROUNDED_BOX:
+      return {TS_BOX, 3};
+    case TS_PADDED_CYLINDER:
+      return {TS_CYLINDER, 2};
+    case TS_PADDED_CONE:
+      return {TS_CONE, 2};
+    case TS_PADDED_ELLIPSOID:
+      return {TS_ELLIPSOID, 3};
+    case TS_PADDED_HULL:
+      return {TS_HULL, 0};
+    default:
+      return {kind};
+  }
+}
+
 /// The host's TS_ABI_MINOR; 0 when it is too old to report it.
 inline std::uint32_t host_minor = 0;
 

@@ -47,7 +47,7 @@ class Engine {
                      kit::oracle_tau_factor, source});
     for (kit::CardText& card : all) {
       card.separate_triangles = true;
-      card.more_shapes = padded_shapes;
+      card.more_shapes = held_by_margin;
     }
     // Queries send boxes through GJK and EPA, the simulation through btBoxBoxDetector.
     for (std::size_t i = 0; i < all.size(); ++i)

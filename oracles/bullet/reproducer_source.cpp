@@ -31,6 +31,12 @@ struct Maker {
     return fmt::format("  {0} shape_{1}({2});\n{3}", type, i, arguments,
                        tuned && margin ? fmt::format("  shape_{}.setMargin(0);\n", i) : "");
   }
+  std::string margin(double m) const { return fmt::format("  shape_{}.setMargin({});\n", i, scalar(m)); }
+  std::string hull(const std::vector<Vec3>& vertices, const std::string& with_margin) const {
+    std::string out = fmt::format("  btConvexHullShape shape_{};\n", i) + with_margin;
+    for (const Vec3& v : vertices) out += fmt::format("  shape_{}.addPoint({}, false);\n", i, vector(v));
+    return out + fmt::format("  shape_{}.recalcLocalAabb();\n", i);
+  }
   std::string operator()(const Sphere& s) const { return plain("btSphereShape", scalar(s.radius), false); }
   std::string operator()(const Capsule& s) const {
     return plain("btCapsuleShapeZ", scalar(s.radius) + ", 2 * " + scalar(s.half_height), false);
@@ -47,10 +53,27 @@ struct Maker {
     return plain("btStaticPlaneShape", vector(s.normal / length) + ", " + scalar(s.offset / length));
   }
   std::string operator()(const Hull& s) const {
-    std::string out = fmt::format("  btConvexHullShape shape_{};\n", i);
-    if (tuned) out += fmt::format("  shape_{}.setMargin(0);\n", i);
-    for (const Vec3& v : s.vertices) out += fmt::format("  shape_{}.addPoint({}, false);\n", i, vector(v));
-    return out + fmt::format("  shape_{}.recalcLocalAabb();\n", i);
+    return hull(s.vertices, tuned ? fmt::format("  shape_{}.setMargin(0);\n", i) : "");
+  }
+  // A padding is the margin, also of a tuned engine.
+  std::string operator()(const RoundedBox& s) const {
+    std::vector<Vec3> corners;
+    for (const double x : {-1, 1})
+      for (const double y : {-1, 1})
+        for (const double z : {-1, 1}) corners.emplace_back(s.half_extents.cwiseProduct(Vec3(x, y, z)));
+    return hull(corners, margin(s.radius));
+  }
+  std::string operator()(const Padded<Hull>& s) const { return hull(s.inner.vertices, margin(s.padding)); }
+  std::string operator()(const Padded<Cylinder>& s) const {
+    const auto sum = [&](double x) { return scalar(x) + " + " + scalar(s.padding); };
+    return plain("btCylinderShapeZ",
+                 fmt::format("btVector3({0}, {0}, {1})", sum(s.inner.radius), sum(s.inner.half_height)),
+                 false) +
+           margin(s.padding);
+  }
+  std::string operator()(const Padded<Cone>& s) const {
+    return plain("btConeShapeZ", scalar(s.inner.radius) + ", 2 * " + scalar(s.inner.half_height), false) +
+           margin(s.padding);
   }
   std::string operator()(const TriangleMesh& s) const {
     std::string out = fmt::format("  btTriangleMesh triangles_{};\n", i);

@@ -18,8 +18,8 @@ inline constexpr bool is_double = sizeof(btScalar) == 8;
 inline constexpr double unit_roundoff = is_double ? double_roundoff : float_roundoff;
 
 /// Bullet's margin around a hull, a cone or a smaller cylinder.
-inline const std::vector<std::string> padded_shapes{"rounded_box", "padded_cylinder", "padded_cone",
-                                                    "padded_hull"};
+inline const std::vector<std::string> held_by_margin{"rounded_box", "padded_cylinder", "padded_cone",
+                                                     "padded_hull"};
 
 /// A btCollisionShape and the arrays that it points into.
 struct Shape {

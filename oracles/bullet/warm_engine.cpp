@@ -48,7 +48,7 @@ class Engine {
         kit::oracle_tau_factor,
         source};
     card.separate_triangles = true;
-    card.more_shapes = padded_shapes;
+    card.more_shapes = held_by_margin;
     card.depth_biases = {{"box box", kit::face_preference}};
     return {card};
   }

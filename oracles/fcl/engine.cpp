@@ -64,7 +64,7 @@ class Engine {
     const auto card = [](const char* name, const char* settings) {
       kit::CardText c{name, "FCL", FCL_VERSION, settings, double_roundoff, kit::oracle_tau_factor, source};
       c.separate_triangles = true;
-      c.more_shapes = {"rounded_box", "padded_cylinder", "padded_cone", "padded_ellipsoid", "padded_hull"};
+      c.more_shapes = kit::padded_shapes;
       // Contacts by collide take boxBox2, those by signed distance do not.
       if (c.name != "fcl-libccd-tuned") c.depth_biases = {{"box box", kit::face_preference}};
       return c;
@@ -96,9 +96,9 @@ class Engine {
     for (std::size_t i = 0; i < scene.body_count; ++i) {
       const ts_body& b = scene.bodies[i];
       const auto shape = static_cast<std::size_t>(b.shape);
-      const Core core = core_of(scene.shapes[shape]);
-      bodies_.push_back(
-          {geometries_[shape].get(), make_transform(kit::pose_of(b.pose)), core.kind, core.padding});
+      const kit::Core core = kit::core_of(scene.shapes[shape].kind);
+      bodies_.push_back({geometries_[shape].get(), make_transform(kit::pose_of(b.pose)), core.kind,
+                         core.radius_of(scene.shapes[shape])});
       report_body(static_cast<int>(i), bodies_.back().transform, received);
     }
     scene_ = &scene;

@@ -46,7 +46,8 @@ struct Maker {
   }
   template <class S>
   std::string operator()(const S&) const {
-    throw InputError("reproduce", fmt::format("FCL has no {}", S::type));
+    throw InputError("reproduce",
+                     fmt::format("FCL has no {}: no program that checks this fault is written", S::type));
   }
   static std::string round(std::string_view name, double radius, double half) {
     return fmt::format("std::make_shared<fcl::{}d>({}, {})", name, literal(radius), literal(2 * half));

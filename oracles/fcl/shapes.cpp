@@ -86,34 +86,10 @@ Size size_of(int kind, const fcl::CollisionGeometryd& g) {
   }
 }
 
-// Where the padding of a padded kind is in ts_shape::size.
-std::size_t padding_place(int kind) {
-  if (kind == TS_PADDED_HULL) return 0;
-  return kind == TS_ROUNDED_BOX || kind == TS_PADDED_ELLIPSOID ? 3 : 2;
-}
-
 }  // namespace
 
-Core core_of(const ts_shape& s) {
-  const auto padded = [&](int kind) { return Core{kind, s.size[padding_place(s.kind)]}; };
-  switch (s.kind) {
-    case TS_ROUNDED_BOX:
-      return padded(TS_BOX);
-    case TS_PADDED_CYLINDER:
-      return padded(TS_CYLINDER);
-    case TS_PADDED_CONE:
-      return padded(TS_CONE);
-    case TS_PADDED_ELLIPSOID:
-      return padded(TS_ELLIPSOID);
-    case TS_PADDED_HULL:
-      return padded(TS_HULL);
-    default:
-      return {s.kind, 0};
-  }
-}
-
 Geometry make_geometry(const ts_shape& s) {
-  switch (core_of(s).kind) {
+  switch (kit::core_of(s.kind).kind) {
     case TS_SPHERE:
       return std::make_shared<fcl::Sphered>(s.size[0]);
     case TS_BOX:
@@ -147,11 +123,11 @@ fcl::Transform3d make_transform(const Pose& pose) {
 void report_shape(int index, const ts_shape& asked, const fcl::CollisionGeometryd& held,
                   const ts_received& to) {
   const double* vertices = nullptr;
-  const Core core = core_of(asked);
+  const kit::Core core = kit::core_of(asked.kind);
   if (core.kind == TS_HULL) vertices = static_cast<const fcl::Convexd&>(held).getVertices().front().data();
   if (asked.kind == TS_MESH) vertices = static_cast<const Mesh&>(held).vertices[0].data();
   Size size = size_of(core.kind, held);
-  if (core.kind != asked.kind) size.v[padding_place(asked.kind)] = core.padding;
+  if (core.ball >= 0) size.v[core.ball] = core.radius_of(asked);
   to.shape(to.ctx, index, size.v, vertices, asked.vertex_count);
 }
 

@@ -12,16 +12,9 @@ namespace touchstone::fcl_adapter {
 
 using Geometry = std::shared_ptr<fcl::CollisionGeometryd>;
 
-/// FCL has no padding: a padded shape is its core, by the kind of that, and a distance.
-struct Core {
-  int kind;  // ts_shape_kind
-  double padding;
-};
-Core core_of(const ts_shape& shape);
-
-/// Of a padded shape, the core. FCL takes full side lengths and full heights; its cone has its origin at
-/// mid-height, as ours does. A hull gets all vertices and its triangles; a flat hull has no faces, which FCL
-/// accepts silently.
+/// FCL has no padding: of a padded shape, the core. FCL takes full side lengths and full heights; its cone
+/// has its origin at mid-height, as ours does. A hull gets all vertices and its triangles; a flat hull has no
+/// faces, which FCL accepts silently.
 Geometry make_geometry(const ts_shape& shape);
 
 fcl::Transform3d make_transform(const Pose& pose);

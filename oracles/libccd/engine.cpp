@@ -71,8 +71,7 @@ class Engine {
     for (const Setting& s : settings)
       cards.push_back({s.name, "libccd", version, calls_of(s) + "; " + limits_of(s), double_roundoff,
                        kit::oracle_tau_factor, source});
-    for (kit::CardText& c : cards)
-      c.more_shapes = {"rounded_box", "padded_cylinder", "padded_cone", "padded_ellipsoid", "padded_hull"};
+    for (kit::CardText& c : cards) c.more_shapes = kit::padded_shapes;
     return cards;
   }
 

@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "core/math/pose.h"
-#include "oracles/abi/touchstone_engine.h"
+#include "oracles/abi/plugin_kit.h"
 
 namespace touchstone::libccd {
 
@@ -39,31 +39,9 @@ inline Vec3 farthest_vertex(const ts_shape& s, const Vec3& d) {
   return {best[0], best[1], best[2]};
 }
 
-/// A kind as another, and where the radius of the ball around that one is in `size`; -1 without a ball.
-struct Core {
-  int kind;
-  int ball = -1;
-};
-inline Core core_of(int kind) {
-  switch (kind) {
-    case TS_ROUNDED_BOX:
-      return {TS_BOX, 3};
-    case TS_PADDED_CYLINDER:
-      return {TS_CYLINDER, 2};
-    case TS_PADDED_CONE:
-      return {TS_CONE, 2};
-    case TS_PADDED_ELLIPSOID:
-      return {TS_ELLIPSOID, 3};
-    case TS_PADDED_HULL:
-      return {TS_HULL, 0};
-    default:
-      return {kind};
-  }
-}
-
 /// The kinds that farthest_local() knows.
 inline bool has_support(const ts_shape& s) {
-  const int kind = core_of(s.kind).kind;
+  const int kind = kit::core_of(s.kind).kind;
   return kind >= TS_SPHERE && kind <= TS_HULL;
 }
 
@@ -102,10 +80,10 @@ inline Vec3 farthest_in_core(int kind, const ts_shape& s, const Vec3& d) {
 
 /// Precondition: has_support(s).
 inline Vec3 farthest_local(const ts_shape& s, const Vec3& d) {
-  const Core core = core_of(s.kind);
+  const kit::Core core = kit::core_of(s.kind);
   const Vec3 p = farthest_in_core(core.kind, s, d);
   const double length = d.norm();
-  return core.ball < 0 || !(length > 0) ? p : Vec3(p + d * (s.size[core.ball] / length));
+  return length > 0 ? Vec3(p + d * (core.radius_of(s) / length)) : p;
 }
 
 inline void support(const void* object, const ccd_vec3_t* direction, ccd_vec3_t* out) {
@@ -120,7 +98,7 @@ inline void support(const void* object, const ccd_vec3_t* direction, ccd_vec3_t*
 inline void center(const void* object, ccd_vec3_t* out) {
   const Object& o = *static_cast<const Object*>(object);
   Vec3 mean = Vec3::Zero();
-  if (core_of(o.shape->kind).kind == TS_HULL) {
+  if (kit::core_of(o.shape->kind).kind == TS_HULL) {
     for (std::size_t i = 0; i < o.shape->vertex_count; ++i)
       mean += Vec3(o.shape->vertices[3 * i], o.shape->vertices[3 * i + 1], o.shape->vertices[3 * i + 2]);
     mean /= static_cast<double>(o.shape->vertex_count);
