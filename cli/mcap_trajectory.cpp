@@ -1,8 +1,6 @@
 #include "cli/mcap_trajectory.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
-#include <unistd.h>
 
 #include <array>
 #include <filesystem>
@@ -38,15 +36,6 @@ void require_packages(const std::string& file) {
                                shell_command({npm_folder().string()}), missing));
 }
 
-// Removed at the end, whatever happens.
-struct TemporaryLog {
-  fs::path file = fs::temp_directory_path() / fmt::format("touchstone-mcap-{}.log", getpid());
-  ~TemporaryLog() {
-    std::error_code none;
-    fs::remove(file, none);
-  }
-};
-
 }  // namespace
 
 ImportOptions with_trajectory_text(ImportOptions options) {
@@ -55,10 +44,10 @@ ImportOptions with_trajectory_text(ImportOptions options) {
   std::error_code none;
   if (!fs::is_regular_file(file, none)) throw InputError(file.string(), "no such file");
   require_packages(file.string());
-  const TemporaryLog log;
   const fs::path script = plugin_directory().parent_path() / "share/touchstone/mcap.mjs";
-  const Captured read =
-      run_captured({"timeout", seconds, "node", memory, script, npm_folder(), fs::absolute(file)}, log.file);
+  // What is wrong with the file is said on standard output.
+  const Captured read = run_captured(
+      {"timeout", seconds, "node", memory, script, npm_folder(), fs::absolute(file)}, "/dev/null");
   if (!read.succeeded)
     throw InputError(file.string(),
                      "cannot be read: node failed, or took more than " + std::string(seconds) + " seconds");

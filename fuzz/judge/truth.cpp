@@ -52,15 +52,6 @@ double hausdorff_distance(const std::vector<Vec3>& v, const std::vector<Vec3>& w
   return std::max(one_way(v, w), one_way(w, v));
 }
 
-double ball_of(const Shape& s) {
-  return std::visit(
-      [](const auto& x) -> double {
-        if constexpr (is_convex_shape<std::decay_t<decltype(x)>>) return x.ball_radius();
-        return 0;
-      },
-      s);
-}
-
 // How far apart the numbers of two shapes are: every point of one is within this of the other. Infinity for
 // shapes of different kinds: the engine's answers are then always judged for the shape it holds.
 double shape_difference(const Shape& x, const Shape& y) {
@@ -68,8 +59,11 @@ double shape_difference(const Shape& x, const Shape& y) {
   if (const TriangleMesh* m = triangles_if(x))
     if (m->triangles != triangles_if(y)->triangles) return unbounded;
   if (const auto* h = hull_if(x))
-    if (const auto& held = hull_if(y)->vertices; held.size() != h->vertices.size())
-      return hausdorff_distance(h->vertices, held) + std::abs(ball_of(x) - ball_of(y));
+    if (const auto& held = hull_if(y)->vertices; held.size() != h->vertices.size()) {
+      const auto* outer = std::get_if<Padded<Hull>>(&x);
+      const double between = outer ? std::abs(outer->padding - std::get<Padded<Hull>>(y).padding) : 0;
+      return hausdorff_distance(h->vertices, held) + between;
+    }
   double sum = 0;
   std::visit(
       [&](const auto& sx) {

@@ -94,7 +94,7 @@ ChartCase broad_chart_case(std::uint64_t seed, std::uint64_t bodies) {
   for (std::size_t i = 0; i < crowd_shapes; ++i) {
     Shape shape = random_shape(rng, kinds[i % std::size(kinds)], 1);
     // ODE does not support flat hulls.
-    while (kind_of(shape) == ShapeKind::hull && hull_if(shape)->dimension < 3)
+    while (kind_of(shape) == ShapeKind::hull && std::get<Hull>(shape).dimension < 3)
       shape = random_shape(rng, ShapeKind::hull, 1);
     s.shapes.push_back(std::move(shape));
   }

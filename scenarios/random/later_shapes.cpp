@@ -11,8 +11,6 @@
 namespace touchstone::fuzz {
 namespace {
 
-constexpr ShapeKind padded_kinds[] = {ShapeKind::padded_cylinder, ShapeKind::padded_cone,
-                                      ShapeKind::padded_ellipsoid, ShapeKind::padded_hull};
 constexpr ShapeKind beside_padded[] = {ShapeKind::padded_cylinder, ShapeKind::padded_cone,
                                        ShapeKind::padded_ellipsoid, ShapeKind::padded_hull,
                                        ShapeKind::rounded_box};

@@ -13,6 +13,10 @@ namespace touchstone::fuzz {
 
 Shape random_shape(Rng& rng, ShapeKind kind, double scale);
 
+/// Cores that are neither a sphere nor a box nor a capsule, with a ball around them.
+inline constexpr ShapeKind padded_kinds[] = {ShapeKind::padded_cylinder, ShapeKind::padded_cone,
+                                             ShapeKind::padded_ellipsoid, ShapeKind::padded_hull};
+
 /// The convex kinds that every engine is sent (engine_card.h).
 inline constexpr auto common_convex_kinds = [] {
   constexpr int all = static_cast<int>(last_common_shape) + 1;

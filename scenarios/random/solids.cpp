@@ -1,6 +1,7 @@
 // Solid meshes: convex and not, with a hole or a cavity, against convex bodies, half-spaces, surfaces and
 // each other.
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include "scenarios/random/families.h"
@@ -16,9 +17,7 @@ ShapeKind partner(Rng& rng) {
   if (pick == 2) return ShapeKind::mesh;
   if (pick < 6) return ShapeKind::solid_mesh;
   if (pick < 8 && may_draw(ShapeKind::rounded_box)) return ShapeKind::rounded_box;
-  if (pick == 8 && may_draw(ShapeKind::padded_hull))
-    return static_cast<ShapeKind>(static_cast<int>(ShapeKind::padded_cylinder) +
-                                  static_cast<int>(rng.below(4)));
+  if (pick == 8 && may_draw(ShapeKind::padded_hull)) return padded_kinds[rng.below(std::size(padded_kinds))];
   return random_convex_kind(rng);
 }
 

@@ -1,12 +1,11 @@
 // Padded shapes in the core: against their cores, the shapes that they degenerate to, and boxes by the
 // referee.
-#include "core/broad/body_box.h"
 #include "core/math/rng.h"
 #include "core/narrow/bounded.h"
 #include "core/narrow/narrow_phase.h"
 #include "core/world/simpler_shape.h"
 #include "oracles/referee/referee.h"
-
+#include "tests/core/box_bounds.h"
 #include "tests/support/catch.h"
 
 using namespace touchstone;
@@ -127,15 +126,7 @@ TEST_CASE("boxes around padded shapes hold them, and no more", "[core][padded]")
     const Shape s = *padded(core, 0.5);
     CHECK(bounding_radius(s) >= bounding_radius(core) + 0.5);
     CHECK(bounding_radius(s) <= bounding_radius(core) + 0.5 + 1e-14);
-    for (int i = 0; i < 100; ++i) {
-      const Pose p{r.unit_vector() * 10, r.rotation()};
-      const Aabb box = broad::body_box(s, p), truth = referee::outer_box({&s, p});
-      for (int k = 0; k < 3; ++k) {
-        CHECK(box.lo[k] <= truth.lo[k] + 1e-15);
-        CHECK(box.hi[k] >= truth.hi[k] - 1e-15);
-        CHECK(box.hi[k] - box.lo[k] <= truth.hi[k] - truth.lo[k] + 1e-13);
-      }
-    }
+    testing::check_boxes(r, s, 100);
   }
   for (const ShapeKind k : padded_kinds) CHECK(is_convex(k));
 }

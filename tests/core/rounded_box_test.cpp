@@ -1,5 +1,4 @@
 // Rounded boxes in the core: against the referee, and against the shapes that they degenerate to.
-#include "core/broad/body_box.h"
 #include "core/impact/impact.h"
 #include "core/narrow/narrow_phase.h"
 #include "core/tolerance.h"
@@ -7,6 +6,7 @@
 #include "core/world/sweep_criterion.h"
 #include "oracles/referee/referee.h"
 #include "scenarios/random/family.h"
+#include "tests/core/box_bounds.h"
 #include "tests/support/catch.h"
 
 using namespace touchstone;
@@ -113,13 +113,5 @@ TEST_CASE("the boxes and balls of a rounded box", "[core][rounded]") {
   CHECK(extent(s) == 3.5);
   CHECK(inner_extent(s).inner == Approx(1.5));
   CHECK(inner_extent(s).inner <= 1.5);
-  for (int i = 0; i < 200; ++i) {
-    const Pose p{r.unit_vector() * 10, r.rotation()};
-    const Aabb box = broad::body_box(s, p), truth = referee::outer_box({&s, p});
-    for (int k = 0; k < 3; ++k) {
-      CHECK(box.lo[k] <= truth.lo[k] + 1e-15);
-      CHECK(box.hi[k] >= truth.hi[k] - 1e-15);
-      CHECK(box.hi[k] - box.lo[k] <= truth.hi[k] - truth.lo[k] + 1e-13);
-    }
-  }
+  testing::check_boxes(r, s, 200);
 }
