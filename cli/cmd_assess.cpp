@@ -98,8 +98,8 @@ int verdict_on(const fuzz::Assessment& a, const std::string& subject, bool json)
 }
 
 int run(AssessArguments o) {
-  require_writable(o.out);
-  require_writable(o.page);
+  prepare_output(o.out);
+  prepare_output(o.page);
   catch_stop_signals();
   o.limits.stop = &interrupted;
   const ImportedModel robot = robot_and_world(o);

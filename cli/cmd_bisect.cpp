@@ -172,7 +172,7 @@ constexpr Row verbs[] = {
 
 int run(const BisectOptions& o, Verb verb) {
   if (!verb) return commit(o);
-  require_writable(o.out);
+  prepare_output(o.out);
   const AskedFinding asked = ask_for_finding(o.finding, o.limits);
   if (asked.key.empty()) return not_found(asked, o.finding);
   return verb(o, asked, asked.findings.at(asked.key));

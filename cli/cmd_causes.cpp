@@ -158,8 +158,8 @@ bool print_at_once(const CausesOptions& o) {
 }
 
 int run(CausesOptions& o) {
-  require_writable(o.out);
-  require_writable(o.page);
+  prepare_output(o.out);
+  prepare_output(o.page);
   if (o.markdown && o.cause.empty())
     throw InputError("--markdown", "needs --cause ID: the issue is about one");
   if (print_at_once(o)) return exit_clean;

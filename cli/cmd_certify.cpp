@@ -190,7 +190,7 @@ int certify_subject(CertifyOptions o) {
   if (o.margin && (!std::isfinite(*o.margin) || *o.margin < 0))
     throw InputError("--margin", "must be a finite number that is not negative");
   if (o.margin && o.sweeps) throw InputError("--margin", "is about bodies at rest; leave out --sweeps");
-  for (const std::string& file : {o.out, o.page, o.script}) require_writable(file);
+  for (const std::string& file : {o.out, o.page, o.script}) prepare_output(file);
   if (o.memcheck) use_memcheck(o);
   const auto c = make(broad_subject(o.subject, o.limits, o.sweeps), config_of(o));
   if (!c) {

@@ -9,6 +9,7 @@
 
 #include "cli/command.h"
 #include "cli/import_options.h"
+#include "cli/output.h"
 #include "core/base/input_error.h"
 #include "fuzz/ask/evidence.h"
 #include "oracles/checker/checker.h"
@@ -144,6 +145,7 @@ Claim claim_in(const Json& j, const std::string& file) try {
 }
 
 int run(const CheckOptions& o) {
+  prepare_output(o.out);
   const Json file = load_json(o.path);
   Json j = certificate_in(file);
   const bool made_now = fuzz::is_deferred(j);

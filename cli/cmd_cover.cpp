@@ -81,7 +81,7 @@ int verdict_on(const CoverArguments& o, const Cover& c) {
 }
 
 int run(const CoverArguments& o) {
-  require_writable(o.out);
+  prepare_output(o.out);
   catch_stop_signals();
   MeshImport as_written;
   as_written.keep_up_axis = true;

@@ -84,7 +84,7 @@ void print_answer(const FingerprintOptions& o, char letter, const Side& side, co
 }
 
 int compare(const FingerprintOptions& o) {
-  require_writable(o.out);
+  prepare_output(o.out);
   const Side a = side_of(o, o.compared[0]), b = side_of(o, o.compared[1]);
   const auto d = fuzz::difference_of(a.fingerprint, b.fingerprint);
   if (o.json)
@@ -124,7 +124,7 @@ int run(FingerprintOptions& o) {
   o.limits.stop = &interrupted;
   if (!o.compared.empty()) return compare(o);
   if (o.engine.empty()) throw InputError("fingerprint", "needs an engine, or --compare A B");
-  require_writable(o.out);
+  prepare_output(o.out);
   const fuzz::Fingerprint f = ask(o, o.engine);
   if (!o.out.empty()) write_file(o.out, stored_text(f));
   fmt::print("{}", o.json ? stored_text(f) : reports::fingerprint_text(f));

@@ -76,7 +76,7 @@ std::string summary(const ImportArguments& o, const ImportedModel& m, const Scen
 }
 
 int run(const ImportArguments& o) {
-  require_writable(o.out);
+  prepare_output(o.out);
   const ImportedModel imported = import_model(o.file, with_trajectory_text(o.import));
   const Scene scene = scene_of(imported);
   print_import_notes(o.file, imported);

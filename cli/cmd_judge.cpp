@@ -64,7 +64,7 @@ std::vector<reports::JUnitTest> tests_of(const fuzz::CampaignResult& before,
 }
 
 int run(const JudgeOptions& o) {
-  require_writable(o.junit);
+  prepare_output(o.junit);
   catch_stop_signals();
   using Clock = std::chrono::steady_clock;
   constexpr std::chrono::seconds between_reports(10);

@@ -236,7 +236,7 @@ int run(const OpenOptions& o) {
   if (!fs::is_directory(o.directory)) throw InputError(o.directory, "is not a directory");
   const fs::path root = fs::absolute(o.directory).lexically_normal();
   const fs::path out = fs::absolute(o.out.empty() ? o.directory + "/index.html" : o.out).lexically_normal();
-  require_writable(out.string());
+  prepare_output(out.string());
   if (o.out.empty()) require_own_index(out);
   const Listing listing = listing_of(fs::path(o.directory).lexically_normal());
   if (listing.results.empty() && listing.unreadable.empty())

@@ -105,8 +105,8 @@ int run(PlanArguments o, const CLI::App& given) {
     throw InputError("--error", fmt::format("{} is not a positive length", o.plan.error));
   if (!(o.plan.margin >= 0 && std::isfinite(o.plan.margin)))
     throw InputError("--margin", fmt::format("{} is not a length", o.plan.margin));
-  require_writable(o.out);
-  require_writable(o.page);
+  prepare_output(o.out);
+  prepare_output(o.page);
   if (!o.use.empty()) o.plan.given = plan_in(o.use);
   const fuzz::Course course = course_named(o);
   const bool live = isatty(2) == 1;

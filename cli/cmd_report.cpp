@@ -52,7 +52,7 @@ int run(const ReportOptions& o) {
     throw InputError(
         o.directory,
         "holds no summary.json: it is not a campaign's directory, or the campaign is unfinished");
-  require_writable(o.out);
+  prepare_output(o.out);
   const fuzz::Json summary = load_json(file, campaign_limits);
   // The summary has counts only; the state also has the cases that causes are told apart by.
   const fuzz::CampaignResult result = std::filesystem::exists(directory / "state.json")

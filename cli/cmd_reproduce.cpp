@@ -18,7 +18,7 @@ struct ReproduceOptions {
 };
 
 int run(const ReproduceOptions& o) {
-  require_writable(o.out);
+  prepare_output(o.out);
   const AskedFinding asked = ask_for_finding(o.finding, o.limits);
   if (asked.key.empty()) return not_found(asked, o.finding);
   const std::string text = program_for(asked.findings.at(asked.key), asked.engine->card(), asked.engine_name);

@@ -117,7 +117,7 @@ fuzz::ShrunkPair shrink(const ShrinkOptions& o, const AskedFinding& asked) {
 }
 
 int run(const ShrinkOptions& o) {
-  require_writable(o.out);
+  prepare_output(o.out);
   const AskedFinding asked = ask_for_finding(o.finding, o.limits);
   if (asked.key.empty()) return not_found(asked, o.finding);
   const fuzz::ShrunkPair both = shrink(o, asked);

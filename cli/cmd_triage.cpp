@@ -173,7 +173,7 @@ int triage_campaign(const TriageOptions& o, const TriageSources& sources) {
   const std::string date = date_of_run(o.date);
   if (!o.reproducers.empty()) make_directory("--reproducers", o.reproducers);
   if (!o.error.empty()) length_from_text(o.error);  // refuses a bad length at once
-  require_writable(o.junit);
+  prepare_output(o.junit);
   const Foreign foreign = foreign_of(o);
   const auto answered = answered_in(o.directory);
   const fuzz::Causes causes = sources.causes();

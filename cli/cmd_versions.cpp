@@ -137,7 +137,7 @@ std::string text_of(const VersionsOptions& o, const std::vector<VersionTable>& t
 }
 
 int run(VersionsOptions& o) {
-  require_writable(o.out);
+  prepare_output(o.out);
   catch_stop_signals();
   o.limits.stop = &interrupted;
   std::optional<fuzz::Causes> given;

@@ -81,7 +81,7 @@ int view_broad(const ViewOptions& o) {
 
 int run(const ViewOptions& o) {
   if (o.out.empty() && !o.json) throw InputError("view", "needs a file for the page: -o FILE");
-  require_writable(o.out);
+  prepare_output(o.out);
   return o.broad ? view_broad(o) : view_case(o);
 }
 

@@ -152,8 +152,8 @@ void declare_corpus_run(CLI::App& app, CorpusRunOptions& to) {
 }
 
 int corpus_run(const CorpusRunOptions& o) {
-  require_writable(o.answers);
-  require_writable(o.junit);
+  prepare_output(o.answers);
+  prepare_output(o.junit);
   const auto cases = wanted_cases(o);
   const ChosenEngines chosen = chosen_engines(o.choice, o.limits);
   const AllScores all = ask_all(o, chosen.names, cases);

@@ -6,6 +6,7 @@
 
 #include "cli/engine_catalog.h"
 #include "core/base/input_error.h"
+#include "fuzz/campaign/store.h"
 #include "reports/text/web_page.h"
 #include "scenarios/codec/json_file.h"
 
@@ -49,14 +50,13 @@ void write_result(const std::string& name, const std::string& out, const std::st
              page ? fmt::format(", page: {}.html", file) : "");
 }
 
-void require_writable(const std::string& file) {
+void prepare_output(const std::string& file) {
   if (file.empty()) return;
-  const auto directory = std::filesystem::absolute(file).parent_path();
   if (std::filesystem::is_directory(file)) throw InputError(file, "cannot be written: it is a directory");
   const bool there = std::filesystem::exists(file);
-  if (!there && !std::filesystem::is_directory(directory))
-    throw InputError(file, "cannot be written: there is no directory " + directory.string());
   if (there && !std::filesystem::is_regular_file(file)) return;  // a device or a pipe: written in place
+  const auto directory = std::filesystem::absolute(file).parent_path();
+  fuzz::make_directory(directory);
   if (access(directory.c_str(), W_OK) != 0) throw InputError(file, "cannot be written: no permission");
 }
 

@@ -9,8 +9,9 @@ namespace touchstone::cli {
 
 // Checks of output files: one that cannot be written is refused before the work, not after it.
 
-/// Throws InputError if the file cannot be written. An empty name means no file.
-void require_writable(const std::string& file);
+/// Makes the missing directories above the file. Throws InputError if the file cannot be written. An empty
+/// name means no file.
+void prepare_output(const std::string& file);
 
 // Writes pages. The built pages of reports/web are installed beside the program (share/touchstone/web), if
 // Node was available to build them.
@@ -19,7 +20,8 @@ void require_writable(const std::string& file);
 std::filesystem::path built_page(std::string_view kind);
 
 /// Writes the page with `json` in it to `out`. If the page is not built, it writes the JSON to `out`.json,
-/// as in page.html.json (unless the file `stored` already holds it), reports this on stderr and returns false.
+/// as in page.html.json (unless the file `stored` already holds it), reports this on stderr and returns
+/// false.
 bool write_page(std::string_view kind, const std::string& json, const std::filesystem::path& out,
                 const std::filesystem::path& stored = {});
 

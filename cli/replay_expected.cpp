@@ -34,8 +34,8 @@ void add_expected(CLI::App& app, ExpectedOptions& to) {
 
 ExpectedFailures::ExpectedFailures(const ExpectedOptions& o, std::string subject)
     : options_(o), subject_(std::move(subject)) {
-  require_writable(o.junit);
-  require_writable(o.write);
+  prepare_output(o.junit);
+  prepare_output(o.write);
   if (o.file.empty()) return;
   const fuzz::Json j = load_json(o.file);
   expected_ = fuzz::expected_from_json(JsonReader(j, o.file));

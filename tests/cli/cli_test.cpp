@@ -434,10 +434,19 @@ TEST_CASE("a result that cannot be written is refused before the work", "[cli]")
   w.write("apart.json", spheres("3"));
   const std::string liar = mutant + "overlap_always";
   for (const std::string command : {"shrink", "reproduce"}) {
-    const Run r = w.touchstone(command + " apart.json --engine " + liar + " -o no/such/folder.json");
+    const Run r = w.touchstone(command + " apart.json --engine " + liar + " -o apart.json/case.json");
+    INFO(r.out << r.err);
     CHECK(r.code == 2);
-    CHECK(r.err.find("there is no directory") != std::string::npos);
+    CHECK(r.err.find("cannot be created") != std::string::npos);
+    CHECK(r.out.empty());
   }
+}
+
+TEST_CASE("the directory of a result is made", "[cli]") {
+  const Workspace w("cli");
+  const std::string arm = TS_SOURCE_DIR "/tests/scenarios/import/files/arm.urdf";
+  CHECK(w.touchstone("import " + arm + " -o new/folder/arm.json").code == 0);
+  CHECK(fs::exists(w.dir / "new/folder/arm.json"));
 }
 
 TEST_CASE("two campaigns cannot write to one directory; the lock ends with its process", "[cli]") {
@@ -499,7 +508,7 @@ TEST_CASE("a cause that triage could not report is not known in the next run", "
   write_causes_by_hand(w.dir / "lies");
   CHECK(w.touchstone(triage + "--junit /dev/full").code == 2);
   CHECK(w.run(program + triage + " >/dev/full").code == 3);
-  const Run bad = w.touchstone(triage + "--junit no/such/file.xml");
+  const Run bad = w.touchstone(triage + "--junit lies/state.json/file.xml");
   CHECK(bad.code == 2);
   CHECK(w.touchstone(triage + "--date yesterday").code == 2);
   CHECK(w.touchstone(triage + "--subject overlap_alway").err.find("did you mean overlap_always?") !=

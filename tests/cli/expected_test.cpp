@@ -118,7 +118,7 @@ TEST_CASE("a comparison that is incomplete is not green, and is not recorded", "
   CHECK(w.touchstone("replay r" + with).err.find("is a recording") != std::string::npos);
   for (const char* options :
        {" --strict", " --junit j.xml", " --expected absent.json", " --expected apart.json",
-        " --write-expected no/such/directory.json", " --expected none.json --junit no/such/directory.xml"}) {
+        " --write-expected apart.json/file.json", " --expected none.json --junit apart.json/file.xml"}) {
     const Run r = w.touchstone("replay apart.json --engines core" + std::string(options));
     INFO(options << ": " << r.out << r.err);
     CHECK(r.code == 2);

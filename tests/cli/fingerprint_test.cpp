@@ -61,7 +61,7 @@ TEST_CASE("fingerprint refuses bad input", "[fingerprint]") {
       {"--compare none.json core", "none.json"},
       {"core --of-build .", "touchstone-host: is missing"},
       {"core --run-with no-such-program", "there is no such program"},
-      {"core -o none/f.json", "there is no directory"},
+      {"core -o bad.json/f.json", "bad.json: cannot be created"},
   };
   for (const auto& [args, reason] : bad) {
     const Run r = w.touchstone("fingerprint " + std::string(args));

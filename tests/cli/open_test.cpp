@@ -169,5 +169,5 @@ TEST_CASE("open refuses what is no directory of results", "[cli][open]") {
   w.write("site/index.html", "<html>mine</html>");
   refused("site", "exists and is not a page of this command");
   CHECK(read_all(w.dir / "site/index.html") == "<html>mine</html>");
-  refused("site -o no/such/folder/index.html", "cannot be written");
+  refused("site -o file/index.html", "cannot be created");
 }

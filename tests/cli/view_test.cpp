@@ -77,6 +77,7 @@ TEST_CASE("view refuses what it cannot show, and names place and reason", "[cli]
   refused("thousand_balls --broad", "-o");
   refused("thousand_balls --broad -o page.html --method fastest", "fastest: unknown; expected automatic");
   refused("no_such_scene --broad -o page.html", "no_such_scene");
-  refused("thousand_balls --broad -o no/such/folder/page.html", "cannot be written");
+  w.write("file", "");
+  refused("thousand_balls --broad -o file/page.html", "cannot be created");
   CHECK_FALSE(std::filesystem::exists(w.dir / "page.html"));
 }
