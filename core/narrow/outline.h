@@ -206,6 +206,47 @@ void clip(Corners<R>& subject, const Corners<R>& window, R tolerance, bool windo
   }
 }
 
+/// Whether the corner is in `window`, a polygon, to within the tolerance.
+template <class R>
+bool holds(const Corners<R>& window, const Corner<R>& c, R tolerance) {
+  for (int i = 0; i < window.size; ++i) {
+    const Corner<R>&w0 = window[i], &w1 = window[(i + 1) % window.size];
+    const R ex = w1.x - w0.x, ey = w1.y - w0.y;
+    if (turn(w0, w1, c) < -tolerance * (abs(ex) + abs(ey))) return false;
+  }
+  return true;
+}
+
+/// Where a segment crosses the boundary of a window: the shares of its length at which it enters and leaves,
+/// and the window's edges there; -1: it does not.
+template <class R>
+struct Crossings {
+  R enters = 0, leaves = 1;
+  int entrance = -1, exit = -1;
+};
+
+/// Lengths up to `tolerance` are 0: a segment that ends on the boundary, or runs along it, does not cross it.
+template <class R>
+Crossings<R> crossings_of(const Corner<R>& from, const Corner<R>& to, const Corners<R>& window, R tolerance) {
+  Crossings<R> c;
+  for (int i = 0; i < window.size; ++i) {
+    const Corner<R>&w0 = window[i], &w1 = window[(i + 1) % window.size];
+    const R zero = tolerance * (abs(w1.x - w0.x) + abs(w1.y - w0.y)), s = turn(w0, w1, from),
+            t = turn(w0, w1, to);
+    if (s >= -zero && t >= -zero) continue;
+    if ((s < -zero && t <= zero) || (t < -zero && s <= zero)) return {};
+    const R share = s / (s - t);
+    if (s < 0 && share > c.enters) {
+      c.enters = share;
+      c.entrance = i;
+    } else if (s > 0 && share < c.leaves) {
+      c.leaves = share;
+      c.exit = i;
+    }
+  }
+  return c.enters < c.leaves ? c : Crossings<R>{};
+}
+
 /// Two segments, of two corners each: b as seen from a.
 template <class R>
 struct EdgePair {

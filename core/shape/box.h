@@ -91,6 +91,39 @@ struct BoxCore : Polyhedral<R> {
     corner(top ^ q);
     return true;
   }
+  template <class Out>
+  void edges_within(const FaceQuery<R>& at, Out&& out) const {
+    const V3<R>&d = at.d, h = half();
+    const V3<R> height = 2 * d.cwiseAbs().cwiseProduct(h);
+    unsigned top = 0;
+    for (int k = 0; k < 3; ++k)
+      if (d[k] >= 0) top |= 1u << k;
+    const auto corner = [&](unsigned bits) {
+      return V3<R>(bits & 1 ? h[0] : -h[0], bits & 2 ? h[1] : -h[1], bits & 4 ? h[2] : -h[2]);
+    };
+    // Downwards from the support corner: `far` has the axes along which a corner is on the other side.
+    for (unsigned far = 0; far < 7; ++far) {
+      R below = 0;
+      for (int k = 0; k < 3; ++k)
+        if (far >> k & 1) below += height[k];
+      if (below > at.limit) continue;
+      const unsigned from = top ^ far;
+      bool begun = false;
+      for (int k = 0; k < 3; ++k) {
+        if (far >> k & 1) continue;
+        const R share = below + height[k] <= at.limit ? R(1) : (at.limit - below) / height[k];
+        if (!out.takes(share)) continue;
+        if (!begun) out.from(corner(from), from);
+        begun = true;
+        out.to(corner(from ^ 1u << k), from ^ 1u << k, share);
+      }
+    }
+  }
+  R edge_reach(const FaceQuery<R>& at) const {
+    R most = 0;
+    for (int k = 0; k < 3; ++k) most = std::max(most, reach_along(at, 2 * half()[k], at.d[k]));
+    return most;
+  }
 };
 
 }  // namespace touchstone::convex

@@ -41,6 +41,11 @@ struct SegmentCore : Polyhedral<R> {
     out.add({0, 0, -half_height}, 1);
     return false;
   }
+  template <class Out>
+  void edges_within(const FaceQuery<R>& at, Out&& out) const {
+    edge_within<R>(at, {0, 0, half_height}, 0, {0, 0, -half_height}, 1, out);
+  }
+  R edge_reach(const FaceQuery<R>& at) const { return reach_along(at, 2 * half_height, at.d[2]); }
 };
 
 }  // namespace touchstone::convex

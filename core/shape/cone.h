@@ -90,6 +90,15 @@ struct ConeCore {
     }
     return false;
   }
+  // The generator through the support point, unless the whole rim is within the limit.
+  template <class Out>
+  void edges_within(const FaceQuery<R>& at, Out&& out) const {
+    const R flat = flat_length(at.d);
+    if (!(2 * flat * radius > at.limit)) return;
+    const R k = radius / flat;
+    edge_within<R>(at, apex(), 0, {at.d[0] * k, at.d[1] * k, -half_height}, 1, out);
+  }
+  R edge_reach(const FaceQuery<R>&) const { return 2 * half_height + radius; }
 
  private:
   V3<R> apex() const { return {0, 0, half_height}; }

@@ -31,13 +31,21 @@ struct AnyCorners {
   void add_many(const V3<R>&, std::uint32_t) {}     // as add(); there may be more than face_capacity
 };
 
+/// Takes edges that begin near a support plane, likewise.
+template <class R>
+struct AnyEdges {
+  bool takes(R) const { return true; }
+  void from(const V3<R>&, std::uint32_t) {}
+  void to(const V3<R>&, std::uint32_t, R) {}
+};
+
 }  // namespace detail
 
 /// What a core provides. Directions are in its own frame, of any length unless stated otherwise.
 template <class C, class R>
 concept CoreModule = std::is_trivially_copyable_v<C> &&
     requires(const C& c, C& changed, const V3<R>& d, R x, Feature<R>& f, const std::array<V3<R>, 3>& three,
-             const FaceQuery<R>& face, detail::AnyCorners<R>& corners) {
+             const FaceQuery<R>& face, detail::AnyCorners<R>& corners, detail::AnyEdges<R>& edges) {
   // All its support points are corners.
   { C::is_polytope } -> std::convertible_to<bool>;
   { C::symmetry } -> std::convertible_to<Symmetry>;
@@ -71,6 +79,11 @@ concept CoreModule = std::is_trivially_copyable_v<C> &&
   { c.face_margin(f, d) } -> std::same_as<R>;
   // Corners of the supporting face; true: in convex order, either way round.
   { c.face_corners(face, corners) } -> std::same_as<bool>;
+  // The edges from those corners, to others of them or farther from the plane, each as edge_within() shows
+  // it; none of a hull with more than four vertices, whose edges are not at hand.
+  c.edges_within(face, edges);
+  // A bound, up to rounding, of the lengths of what of those edges is within the limit.
+  { c.edge_reach(face) } -> std::same_as<R>;
 } &&(C::is_polytope ||
      requires(const C& c, const Feature<R>& f, const FeaturePoint<R>& at, const V3<R>& d, R x,
               const Tangents<R>& tangents, const Cap<R>& cap, TangentForm<R>& form) {

@@ -70,6 +70,15 @@ struct CylinderCore {
     }
     return false;
   }
+  // The generator through the support point, unless a whole rim is within the limit.
+  template <class Out>
+  void edges_within(const FaceQuery<R>& at, Out&& out) const {
+    const R flat = flat_length(at.d), k = flat > 0 ? radius / flat : R(0);
+    if (2 * flat * radius <= at.limit) return;
+    edge_within<R>(at, {at.d[0] * k, at.d[1] * k, half_height}, 0, {at.d[0] * k, at.d[1] * k, -half_height},
+                   1, out);
+  }
+  R edge_reach(const FaceQuery<R>& at) const { return reach_along(at, 2 * half_height, at.d[2]); }
 };
 
 }  // namespace touchstone::convex

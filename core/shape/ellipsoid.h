@@ -95,6 +95,9 @@ struct EllipsoidCore {
     out.add(support(at.d), 0);
     return false;
   }
+  template <class Out>
+  void edges_within(const FaceQuery<R>&, Out&&) const {}
+  R edge_reach(const FaceQuery<R>&) const { return 0; }
 };
 
 }  // namespace touchstone::convex

@@ -150,6 +150,28 @@ struct FaceQuery {
   R top, limit, tolerance;
 };
 
+/// Shows an edge to `out` if an end of it is within the limit: out.from(end, id), then out.to(other, id,
+/// share). The other is within it too, with share 1, or the edge leaves it after this share of its length; of
+/// two ends within it, the lower one comes second. `out.takes(share)` false: this one is not asked for.
+template <class R, class Out>
+void edge_within(const FaceQuery<R>& at, const V3<R>& p, std::uint32_t p_id, const V3<R>& q,
+                 std::uint32_t q_id, Out&& out) {
+  const R p_below = at.top - at.d.dot(p), q_below = at.top - at.d.dot(q);
+  if (p_below > q_below) return edge_within(at, q, q_id, p, p_id, out);
+  if (p_below > at.limit) return;
+  const R share = q_below <= at.limit ? R(1) : (at.limit - p_below) / (q_below - p_below);
+  if (!out.takes(share)) return;
+  out.from(p, p_id);
+  out.to(q, q_id, share);
+}
+
+/// How much of an edge of this length is within the limit, at most, from the support plane on: `slope` is the
+/// cosine of its angle to the plane's normal, of either sign.
+template <class R>
+R reach_along(const FaceQuery<R>& at, R length, R slope) {
+  return abs(slope) * length <= at.limit ? length : at.limit / abs(slope);
+}
+
 /// Corners that a face is expected to have at most. A face of vertices with more is listed by `add_many`.
 inline constexpr int face_capacity = 72;
 

@@ -95,6 +95,16 @@ struct VerticesCore : Polyhedral<R> {
     for (std::size_t i = 0; i < vertices.size(); ++i) out.add_many(vertex(i), static_cast<std::uint32_t>(i));
     return false;
   }
+  // Of a simplex, whose corners are all neighbours.
+  template <class Out>
+  void edges_within(const FaceQuery<R>& at, Out&& out) const {
+    if (vertices.size() > 4) return;
+    for (std::uint32_t i = 0; i < vertices.size(); ++i)
+      for (std::uint32_t k = 0; k < i; ++k) edge_within<R>(at, vertex(i), i, vertex(k), k, out);
+  }
+  R edge_reach(const FaceQuery<R>&) const {
+    return vertices.size() > 4 ? R(0) : std::numeric_limits<R>::infinity();
+  }
 
  private:
   V3<R> vertex(std::size_t i) const { return vertices[i].template cast<R>() * unit; }

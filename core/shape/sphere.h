@@ -33,6 +33,9 @@ struct PointCore : Polyhedral<R> {
     out.add(support(at.d), 0);
     return false;
   }
+  template <class Out>
+  void edges_within(const FaceQuery<R>&, Out&&) const {}
+  R edge_reach(const FaceQuery<R>&) const { return 0; }
 };
 
 }  // namespace touchstone::convex
@@ -42,7 +45,9 @@ namespace touchstone {
 struct Sphere {
   double radius = 0;
   static constexpr std::string_view type = "sphere";
-  static constexpr auto fields() { return std::tuple{Field{"radius", &Sphere::radius, Domain::non_negative}}; }
+  static constexpr auto fields() {
+    return std::tuple{Field{"radius", &Sphere::radius, Domain::non_negative}};
+  }
 
   template <class R>
   convex::PointCore<R> core() const {

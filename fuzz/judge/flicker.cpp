@@ -257,6 +257,48 @@ std::vector<Slacks> region_slacks(const Pair& p) {
   return all;
 }
 
+// The regions that the two frames have at one slack: at the height of each corner of a body in either frame,
+// and for what lies deeper than the other body's plane. An engine that takes corners up to some slack may
+// have begun or ceased there to take one.
+std::vector<std::array<referee::ContactRegion, 2>> regions_at_corners(const Pair& p) {
+  const double least = referee::contact_slack_factor * p.scale(), most = p.deepest();
+  std::vector<std::array<referee::ContactRegion, 2>> all;
+  const auto add = [&](const Slacks& before, const Slacks& after) {
+    all.push_back({region(p, p.before, before), region(p, p.after, after)});
+  };
+  for (const AnsweredFrame* f : {&p.before, &p.after}) {
+    const Vec3& n = *f->answer.normal;
+    for (const auto& [body, ahead] : {std::pair(p.q.a, n), std::pair(p.q.b, Vec3(-n))})
+      for (const double below : referee::corner_heights(f->truth.placed(0, body), ahead))
+        if (const double s = below + least / 2; s > least && s < most) add({s, s}, {s, s});
+  }
+  const double was = p.before.answer.depth.value_or(0), is = p.after.answer.depth.value_or(0);
+  if (std::min(was, is) > least) {
+    add({least, was}, {least, is});
+    add({was, least}, {is, least});
+  }
+  return all;
+}
+
+// Whether the truth's normal leads from another kind of feature than before on either body: from an edge to a
+// face, say.
+bool switches_features(const Pair& p) {
+  const double slack = referee::contact_slack_factor * p.scale();
+  const auto of = [&](const AnsweredFrame& f, int body, double side) {
+    return feature(f.truth.placed(0, body), side * f.truth.pair(0, p.q.a, p.q.b).normal, slack);
+  };
+  return of(p.before, p.q.a, 1) != of(p.after, p.q.a, 1) || of(p.before, p.q.b, -1) != of(p.after, p.q.b, -1);
+}
+
+// Whether some slack gives the region more corners after than before, or fewer: as the points.
+bool gains_corners(const Pair& p, bool more) {
+  const auto all = regions_at_corners(p);
+  return std::any_of(all.begin(), all.end(), [&](const auto& r) {
+    const std::size_t was = r[0].vertices.size(), is = r[1].vertices.size();
+    return more ? is > was : is < was;
+  });
+}
+
 // How far the corners of the contact region move, seen in each of the three ways: the most over the regions
 // that engines may mean. Empty if one of these regions gets other corners.
 std::optional<std::array<double, 3>> moved_corners(const Pair& p) {
@@ -269,6 +311,17 @@ std::optional<std::array<double, 3>> moved_corners(const Pair& p) {
           moved_most[k], set_distance(moved(p.ways[k], was.vertices), is.vertices) + was.error + is.error);
   }
   return moved_most;
+}
+
+// Whether the region jumps at least as far at one of these slacks.
+bool is_jump_of_region(const Pair& p, double by) {
+  const auto all = regions_at_corners(p);
+  return std::any_of(all.begin(), all.end(), [&](const auto& r) {
+    const Points &was = r[0].vertices, &is = r[1].vertices;
+    return !was.empty() && !is.empty() && std::all_of(p.ways.begin(), p.ways.end(), [&](const Carried& way) {
+      return set_distance(moved(way, was), is) >= by;
+    });
+  });
 }
 
 // The numbers that the points of `is` have in `was`, if they are the same points and clearly so.
@@ -346,7 +399,8 @@ double excess_of_points(const Pair& p, const Points& was, const Points& is) {
   const auto of_region = moved_corners(p);
   if (!of_region) return 0;
   for (std::size_t k = 0; k < beyond.size(); ++k) beyond[k] -= (*of_region)[k];
-  return *std::min_element(beyond.begin(), beyond.end());
+  const double excess = *std::min_element(beyond.begin(), beyond.end());
+  return excess > 0 && (switches_features(p) || is_jump_of_region(p, excess)) ? 0 : excess;
 }
 
 // By how much a point of the earlier frame gets deeper: how far the bodies move towards each other along the
@@ -368,16 +422,31 @@ std::size_t number_of(const Observation& o, const std::function<bool(const Manif
                     [&](const ManifoldPoint& m) { return m.position.allFinite() && is_one(m); }));
 }
 
+// Whether both bodies have left a point of contact sideways: A's surface there, moved with A, lies outside B
+// in the other frame, and B's, moved with B, outside A. Where an edge of one crosses the border of a face of
+// the other, which goes faster than either body.
+bool is_left(const Pair& p, const ManifoldPoint& m, bool earlier, double slack) {
+  const AnsweredFrame &here = earlier ? p.after : p.before, &there = earlier ? p.before : p.after;
+  const Vec3 half = here.answer.normal->normalized() * (m.depth / 2);
+  const auto is_outside = [&](const Vec3& end, const Carried& way, int body) {
+    const Vec3 place = earlier ? way.earlier(end) : way.point(end);
+    return there.truth.distance_to(0, body, place, slack).lo > slack;
+  };
+  return is_outside(m.position + half, p.ways[1], p.q.b) && is_outside(m.position - half, p.ways[2], p.q.a);
+}
+
 // Whether the points that come were not below the surface before, and those that go are not now: corners of
-// one body that pass the other's plane.
+// one body that pass the other's plane, or edges that pass its border.
 bool changes_at_surface(const Pair& p, std::size_t was, std::size_t is) {
   const double slack = referee::contact_slack_factor * p.scale() + 2 * p.rounding();
-  const std::size_t stay = number_of(
-      p.before.answer, [&](const ManifoldPoint& m) { return m.depth + sinking(p, m.position).lo > slack; });
+  const std::size_t stay = number_of(p.before.answer, [&](const ManifoldPoint& m) {
+    return m.depth + sinking(p, m.position).lo > slack && !is_left(p, m, false, slack);
+  });
   const std::size_t stayed = number_of(p.after.answer, [&](const ManifoldPoint& m) {
-    return std::all_of(p.ways.begin() + 1, p.ways.end(), [&](const Carried& body) {
+    const bool was_below = std::all_of(p.ways.begin() + 1, p.ways.end(), [&](const Carried& body) {
       return m.depth - sinking(p, body.earlier(m.position)).hi > slack;
     });
+    return was_below && !is_left(p, m, true, slack);
   });
   return stay <= is && stayed <= was;
 }
@@ -386,6 +455,7 @@ void judge_manifolds(const Pair& p, int frame, FrameChange& out) {
   const Points was = points_of(p.before.answer), is = points_of(p.after.answer);
   if (was.size() != is.size()) {
     if (changes_at_surface(p, was.size(), is.size()) || !moved_corners(p)) return;
+    if (gains_corners(p, is.size() > was.size()) || switches_features(p)) return;
     out.flickers.push_back(report(
         p, Flicker::count, frame, std::abs(static_cast<double>(is.size()) - static_cast<double>(was.size())),
         fmt::format("{} points after {}; the contact region keeps its corners", is.size(), was.size())));

@@ -1,5 +1,8 @@
 // Contacts of faces and edges that are parallel up to a small angle, against the referee's contact region.
+#include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "core/math/rng.h"
 #include "core/narrow/narrow_phase.h"
@@ -50,6 +53,45 @@ void check_points(const Pair& p, const ContactAnswer& r) {
 }
 
 }  // namespace
+
+TEST_CASE("deep points stay when a corner beyond the border of a face passes its plane",
+          "[narrow][manifold]") {
+  // A tilted box hangs over an edge of a table and rises from it: one corner after the other leaves the plane
+  // of the table top, those beside the table last or first.
+  constexpr double step = 1e-3, deep = 0.02, near = 0.02;
+  const auto manifold = [](double tilt, double turn, double height) {
+    const Pair p{
+        Box{{1, 1, 0.5}},
+        Box{{0.5, 0.4, 0.2}},
+        {},
+        {{0.8, 0.3, 0.5 + height}, turn_about(Vec3(0, 0, 1), turn) * turn_about(Vec3(0, 1, 0), tilt)}};
+    const ContactAnswer r = contact(p.placed_a(), p.placed_b());
+    if (r.overlap && r.normal.z() == 1) check_points(p, r);
+    return r;
+  };
+  int compared = 0;
+  for (const double tilt : {-0.3, -0.1, 0.1, 0.3})
+    for (const double turn : {0.0, 0.4, 1.2}) {
+      std::optional<ContactAnswer> was;
+      for (double height = 0.1; height < 0.24; height += step) {
+        const ContactAnswer is = manifold(tilt, turn, height);
+        if (!is.overlap) break;
+        if (was && was->normal.z() == 1 && is.normal.z() == 1)
+          for (const auto& [from, to] :
+               {std::pair(&std::as_const(*was), &is), std::pair(&is, &std::as_const(*was))})
+            for (const ContactPoint& x : from->manifold) {
+              if (x.depth < deep) continue;
+              INFO("tilt " << tilt << ", turn " << turn << ", height " << height << ", depth " << x.depth);
+              ++compared;
+              CHECK(std::ranges::any_of(to->manifold, [&](const ContactPoint& y) {
+                return (x.position - y.position).norm() < near;
+              }));
+            }
+        was = is;
+      }
+    }
+  CHECK(compared > 1000);
+}
 
 TEST_CASE("nearly parallel faces and edges have a whole contact", "[narrow][manifold]") {
   Rng rng(31);

@@ -261,6 +261,9 @@ TEST_CASE("the core keeps its normals and points where the truth does", "[frames
     CHECK(found(r, "needless") == 0);
     CHECK(found(r, "depth") == 0);
     CHECK(found(r, "verdict") == 0);
+    CHECK(found(r, "count") == 0);
+    CHECK(found(r, "points") == 0);
+    CHECK(found(r, "ids") == 0);
     CHECK(r.changes > 0);
     sum.merge(r);
   }

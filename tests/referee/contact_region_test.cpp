@@ -1,6 +1,8 @@
 // The true contact region: closed forms, and its definition checked point by point on touching bodies.
 #include "oracles/referee/region/contact_region.h"
 
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "tests/referee/support.h"
@@ -162,4 +164,25 @@ TEST_CASE("points bear a weight on the region if its centroid is among them", "[
   const ContactRegion point =
       contact_region({&floor, Pose{}}, {&ball, Pose{{0, 0, 1.75}, {}}}, {0, 0, 1}, 1e-6);
   CHECK_FALSE(holds_centroid(point, {{0, 0, 1}}, {0, 0, 1}));
+}
+
+TEST_CASE("heights of corners below a support plane", "[referee][region]") {
+  const auto heights = [](const Shape& s, const Quat& q, const Vec3& n) {
+    return corner_heights({&s, Pose{Vec3(3, 2, 1), q}}, n);
+  };
+  const auto are = [](const std::vector<double>& x, const std::vector<double>& expected) {
+    REQUIRE(x.size() >= expected.size());
+    for (const double e : expected)
+      CHECK(std::any_of(x.begin(), x.end(), [&](double h) { return std::abs(h - e) < 1e-12; }));
+    for (const double h : x)
+      CHECK(std::any_of(expected.begin(), expected.end(), [&](double e) { return std::abs(h - e) < 1e-12; }));
+  };
+  const double s = std::sin(0.25), c = std::cos(0.25);
+  are(heights(Box{{1, 1, 1}}, Quat{}, down), {0, 2});
+  are(heights(Box{{1, 2, 3}}, Quat{}, 2 * Vec3(s, 0, c)), {0, 2 * s, 6 * c, 2 * s + 6 * c});
+  are(heights(Box{{1, 2, 3}}, about_y(0.25), Vec3(s, 0, c)), {0, 6});
+  are(heights(Cylinder{1, 3}, Quat{}, Vec3(s, 0, c)), {0, 2 * s, 6 * c, 2 * s + 6 * c});
+  are(heights(Cone{1, 3}, Quat{}, Vec3(0, 0, 1)), {0, 6});
+  are(heights(Sphere{1}, Quat{}, down), {0});
+  CHECK(heights(HalfSpace{{0, 0, 1}, 0}, Quat{}, down).empty());
 }

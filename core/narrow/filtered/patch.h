@@ -1,10 +1,12 @@
 // Contact manifold in double or float, in fixed storage. Reference: the face (three points or more) of one
 // body that supports it along the normal. Incident: the corners of the other body beyond the reference's
-// plane, in convex order, clipped against the reference (core/narrow/outline.h). Each point keeps its own
-// depth. Chords of the incident body lie inside it, so every point lies within its depth of both bodies,
-// halfway between the incident body and the plane. A face tilted by a few ulp therefore stays complete and
-// does not flicker. Without a face: overlap or crossing of two edges, or the deepest vertex; and where faces
-// or edges are parallel up to a small angle, what they have in common (nearly_parallel.h).
+// plane, in convex order, clipped against the reference (core/narrow/outline.h); and where an edge leaves the
+// reference's border before its plane, that place, so that no deep point goes when a corner beyond the border
+// passes the plane. Each point keeps its own depth. Chords of the incident body lie inside it, so every point
+// lies within its depth of both bodies, halfway between the incident body and the plane. A face tilted by a
+// few ulp therefore stays complete and does not flicker. Without a face: overlap or crossing of two edges, or
+// the deepest vertex; and where faces or edges are parallel up to a small angle, what they have in common
+// (nearly_parallel.h).
 //
 // Ids name features: a corner of A, a corner of B, or an edge of A that crosses an edge of B. They do not
 // depend on which body is the reference or where its outline starts; both change with an ulp when faces lie
@@ -69,10 +71,7 @@ class FeatureCorners {
   void add(const V3<R>& p, std::uint32_t id) {
     if (at_.top - at_.d.dot(p) <= at_.limit) add_certain(p, id);
   }
-  void add_certain(const V3<R>& p, std::uint32_t id) {
-    const V3<R> q = (placed_ ? V3<R>(placed_->b_to_a * p + placed_->offset) : p) - plane_.origin;
-    out_.add({plane_.x.dot(q), plane_.y.dot(q), std::max<R>(0, at_.top - at_.d.dot(p)), id, 0});
-  }
+  void add_certain(const V3<R>& p, std::uint32_t id) { out_.add(flat(p, id)); }
   // Keeps their outline. If it has more corners than fit, every other one is kept: 36 corners of a circle
   // still cover 99.5 % of its area.
   void add_many(const V3<R>& p, std::uint32_t id) {
@@ -84,7 +83,71 @@ class FeatureCorners {
     out_.size = (out_.size + 1) / 2;
   }
 
+  /// Whether these corners, and all that edges from them reach within the limit, lie inside `window`.
+  bool stay_inside(const Corners<R>& window) const {
+    const R reach = on_core(c_, [&](const auto& core) { return core.edge_reach(at_); }) + at_.tolerance;
+    for (int i = 0; i < window.size; ++i) {
+      const Corner<R>&w0 = window[i], &w1 = window[(i + 1) % window.size];
+      const R ex = w1.x - w0.x, ey = w1.y - w0.y, least = reach * reach * (ex * ex + ey * ey);
+      for (const Corner<R>& c : out_)
+        if (const R s = outline::turn(w0, w1, c); !(s > 0 && s * s >= least)) return false;
+    }
+    return true;
+  }
+  /// Where edges from these corners leave the limit, and where they cross the boundary of `window`, a face of
+  /// the other body; empty if none crosses it that leaves the limit: then no more of the body is beyond the
+  /// face's plane there than what these corners span.
+  struct Followed {
+    Corners<R> ends, crossings;
+    int border = -1;       // an edge of the window that is crossed
+    bool borders = false;  // others are, too
+  };
+  void follow_edges(const Corners<R>& window, bool window_is_a, Followed& out) const {
+    Edges edges{*this, window, window_is_a, true, out, {}};
+    on_core(c_, [&](const auto& core) {
+      core.edges_within(at_, edges);
+      if (out.crossings.size == 0) return;
+      edges.leaving = false;
+      core.edges_within(at_, edges);
+    });
+  }
+
  private:
+  struct Edges {
+    const FeatureCorners& of;
+    const Corners<R>& window;
+    bool window_is_a, leaving;  // leaving: those that leave the limit, not the others
+    Followed& out;
+    Corner<R> begin;
+
+    bool takes(R share) const { return (share < 1) == leaving; }
+    void from(const V3<R>& p, std::uint32_t id) { begin = of.flat(p, id); }
+    void to(const V3<R>& p, std::uint32_t id, R share) {
+      const Corner<R> other = of.flat(p, id);
+      const auto at = [&](R t) {
+        return Corner<R>{begin.x + t * (other.x - begin.x), begin.y + t * (other.y - begin.y),
+                         begin.below + t * (other.below - begin.below), id, 0};
+      };
+      const Corner<R> end = at(share);
+      if (leaving) out.ends.add(end);
+      const auto c = outline::crossings_of(begin, end, window, of.at_.tolerance);
+      const std::uint32_t edge = outline::edge_id(begin.id, id);
+      for (const auto& [along, border] : {std::pair(c.enters, c.entrance), std::pair(c.leaves, c.exit)}) {
+        if (border < 0) continue;
+        Corner<R> crossing = at(along * share);
+        crossing.id = outline::crossing_id(edge, window, border, window_is_a);
+        out.crossings.add(crossing);
+        out.borders |= out.border >= 0 && out.border != border;
+        out.border = border;
+      }
+    }
+  };
+
+  Corner<R> flat(const V3<R>& p, std::uint32_t id) const {
+    const V3<R> q = (placed_ ? V3<R>(placed_->b_to_a * p + placed_->offset) : p) - plane_.origin;
+    return {plane_.x.dot(q), plane_.y.dot(q), std::max<R>(0, at_.top - at_.d.dot(p)), id, 0};
+  }
+
   const ConvexBody<R>& c_;
   const Relative<R>* placed_;
   const PatchPlane<R>& plane_;
@@ -127,14 +190,48 @@ Patch<R> contact_patch(const ConvexBody<R>& a, const ConvexBody<R>* b, const Rel
   const V3<R> top_a = support_local<R>(a, n);
   const V3<R> top_b = b ? support_local<R>(*b, V3<R>(at.b_to_a.transpose() * -n)) : top_a;
   plane.origin = top_a;
-  const auto show_a = [&](R limit, Corners<R>& out) {
-    FeatureCorners<R>(a, nullptr, plane, 1, top_a, limit, tolerance, out).collect();
+  Corners<R> fa, fb, region;
+  const auto of_a = [&](R limit, Corners<R>& out) {
+    return FeatureCorners<R>(a, nullptr, plane, 1, top_a, limit, tolerance, out);
   };
-  const auto show_b = [&](R limit, Corners<R>& out) {
-    FeatureCorners<R>(*b, &at, plane, -1, top_b, limit, tolerance, out).collect();
+  const auto of_b = [&](R limit, Corners<R>& out) {
+    return FeatureCorners<R>(*b, &at, plane, -1, top_b, limit, tolerance, out);
+  };
+  const auto show_a = [&](R limit, Corners<R>& out) { of_a(limit, out).collect(); };
+  const auto show_b = [&](R limit, Corners<R>& out) { of_b(limit, out).collect(); };
+  // The part of the other body beyond the plane of a face, as far as the face goes.
+  const auto clipped = [&](FeatureCorners<R> incident, const Corners<R>& window, bool window_is_a) {
+    incident.collect();
+    if (incident.stay_inside(window)) {
+      for (Corner<R>& c : region) c.id |= window_is_a ? outline::of_b : outline::of_a;
+      return;
+    }
+    typename FeatureCorners<R>::Followed edges;
+    incident.follow_edges(window, window_is_a, edges);
+    if (edges.crossings.size == 0) return outline::clip(region, window, tolerance, window_is_a);
+    const Corners<R> corners = region;
+    if (edges.borders) {  // around a corner of the window, perhaps
+      for (const Corner<R>& c : edges.ends) region.add(c);
+      outline::convex_order(region, tolerance);
+    }
+    outline::clip(region, window, tolerance, window_is_a);
+    // The outline crosses the border along edges, or between them, where the body is less deep. It may lead
+    // around corners and over edges.
+    const auto is_none = [](const Corner<R>& c) { return (c.id & outline::crossing) != 0; };
+    region.size = static_cast<int>(std::remove_if(region.begin(), region.end(), is_none) - region.begin());
+    for (Corner<R> c : corners) {
+      c.id |= window_is_a ? outline::of_b : outline::of_a;
+      const auto is_same = [&](const Corner<R>& r) { return r.id == c.id; };
+      if (outline::holds(window, c, tolerance) && std::none_of(region.begin(), region.end(), is_same))
+        region.add(c);
+    }
+    for (const Corner<R>& c : edges.crossings) region.add(c);
+    // Without the ends, which are on the surface.
+    const R surface = std::max<R>(depth, 2 * tolerance) - tolerance;
+    const auto is_above = [&](const Corner<R>& c) { return c.below >= surface; };
+    region.size = static_cast<int>(std::remove_if(region.begin(), region.end(), is_above) - region.begin());
   };
   Patch<R> patch;
-  Corners<R> fa, fb, region;
   show_a(tolerance, fa);
   bool by_a = true;
   if (!b) {
@@ -142,14 +239,12 @@ Patch<R> contact_patch(const ConvexBody<R>& a, const ConvexBody<R>* b, const Rel
     for (Corner<R>& c : region) c.id |= outline::of_a;
     by_a = false;
   } else if (fa.size >= 3) {
-    show_b(depth + tolerance, region);
-    outline::clip(region, fa, tolerance, true);
+    clipped(of_b(depth + tolerance, region), fa, true);
   } else {
     show_b(tolerance, fb);
     if (fb.size >= 3) {
-      show_a(depth + tolerance, region);
       by_a = false;
-      outline::clip(region, fb, tolerance, false);
+      clipped(of_a(depth + tolerance, region), fb, false);
     } else if (fa.size == 2 && fb.size == 2) {
       region = cross_edges(fa, fb, 4 * tolerance);
     }

@@ -10,7 +10,9 @@
 // edges: the area is off by at most error·perimeter.
 #include "oracles/referee/region/contact_region.h"
 
+#include <algorithm>
 #include <array>
+#include <functional>
 #include <numbers>
 
 #include "oracles/referee/exact/exact_pair.h"
@@ -298,6 +300,21 @@ std::optional<bool> holds_centroid(const ContactRegion& region, const std::vecto
   const auto frames = half_planes(part, margin, margin);
   return std::all_of(frames.begin(), frames.end(),
                      [&](const HalfPlane& h) { return dot(h.normal, centroid) <= h.offset; });
+}
+
+std::vector<double> corner_heights(const Placed& body, const Vec3& normal) {
+  if (kind_of(*body.shape) == ShapeKind::half_space) return {};
+  const Vec3 origin = translation_of(body);
+  const Real3 n = to_real(normal);
+  std::vector<double> heights;
+  for (const Real side : {1, -1})  // the highest points of rims, and the lowest
+    for (const Real3& x : extremes_of(body, origin, side * n, 0).points)
+      heights.push_back(static_cast<double>(dot(n, x) / norm(n)));
+  std::sort(heights.begin(), heights.end(), std::greater<>());
+  heights.erase(std::unique(heights.begin(), heights.end()), heights.end());
+  const double top = heights.front();
+  for (double& h : heights) h = top - h;
+  return heights;
 }
 
 double spanned_area(const std::vector<Vec3>& points, const Vec3& normal) {

@@ -44,6 +44,10 @@ ContactRegion contact_region(const Placed& a, const Placed& b, const Vec3& norma
 ContactRegion contact_region(const Placed& a, const Placed& b, const Vec3& normal_ab, double slack_a,
                              double slack_b);
 
+/// How far each corner of the body is below its support plane along the normal (finite, not zero): the slacks
+/// at which contact_region() takes it, to rounding. A rim's highest and lowest point; not of a half-space.
+std::vector<double> corner_heights(const Placed& body, const Vec3& normal);
+
 /// The share of a polygon's area, or of a segment's length, covered by the hull of the points projected along
 /// the normal; at most 1. nullopt when the region is neither a polygon nor a segment.
 std::optional<double> covered_share(const ContactRegion& region, const std::vector<Vec3>& points,

@@ -132,3 +132,34 @@ TEST_CASE("outline: storage is bounded in double, and not in extended precision"
   CHECK(copy.size == wide.size);
   CHECK(copy[wide.size - 1].x == Wide(Corners<double>::capacity));
 }
+
+TEMPLATE_TEST_CASE("outline: an edge crosses the window's boundary once, twice or not at all",
+                   "[narrow][outline]", float, double, Wide) {
+  using R = TestType;
+  const auto crossings = [](const Point& from, const Point& to) {
+    const auto corner = [](const Point& p) { return Corner<R>{R(p[0]), R(p[1]), R(0), 0, 0}; };
+    const Crossings<R> c = crossings_of(corner(from), corner(to), outline_of<R>(square), R(tolerance));
+    std::vector<Point> out;
+    for (const auto& [share, border] : {std::pair(c.enters, c.entrance), std::pair(c.leaves, c.exit)}) {
+      const double t = static_cast<double>(share);
+      if (border >= 0) out.push_back({from[0] + (to[0] - from[0]) * t, from[1] + (to[1] - from[1]) * t});
+    }
+    return out;
+  };
+  CHECK(crossings({1, 1}, {3, 1}) == std::vector<Point>{{2, 1}});
+  CHECK(crossings({-1, 1}, {1, 1}) == std::vector<Point>{{0, 1}});
+  CHECK(crossings({-2, 0.5}, {6, 0.5}) == std::vector<Point>{{0, 0.5}, {2, 0.5}});
+  CHECK(crossings({1, 3}, {3, 1}) == std::vector<Point>{});  // passes a corner
+  CHECK(crossings({1, 2.5}, {3, 0.5}) == std::vector<Point>{{1.5, 2}, {2, 1.5}});
+  CHECK(crossings({0.5, 0.5}, {1.5, 1}) == std::vector<Point>{});  // inside
+  CHECK(crossings({3, 3}, {4, 5}) == std::vector<Point>{});
+  CHECK(crossings({1, 1}, {2, 1}) == std::vector<Point>{});      // ends on the boundary
+  CHECK(crossings({2, 0.5}, {2, 1.5}) == std::vector<Point>{});  // runs along it
+  const auto holds_point = [](double x, double y) {
+    return holds(outline_of<R>(square), Corner<R>{R(x), R(y), 0, 0, 0}, R(tolerance));
+  };
+  CHECK(holds_point(1, 1));
+  CHECK(holds_point(2, 2));
+  CHECK_FALSE(holds_point(2.25, 1));
+  CHECK_FALSE(holds_point(1, -0.25));
+}
