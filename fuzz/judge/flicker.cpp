@@ -284,6 +284,10 @@ std::vector<std::array<referee::ContactRegion, 2>> regions_at_corners(const Pair
 // face, say.
 bool switches_features(const Pair& p) {
   const double slack = referee::contact_slack_factor * p.scale();
+  const auto has_normal = [&](const AnsweredFrame& f) {
+    return f.truth.pair(0, p.q.a, p.q.b).normal.norm() > 0;
+  };
+  if (!has_normal(p.before) || !has_normal(p.after)) return false;
   const auto of = [&](const AnsweredFrame& f, int body, double side) {
     return feature(f.truth.placed(0, body), side * f.truth.pair(0, p.q.a, p.q.b).normal, slack);
   };
