@@ -230,6 +230,47 @@ TEST_CASE("a point may come or go at the surface, but not below it", "[frames]")
     }
 }
 
+TEST_CASE("points may go with corners that rise above a threshold, but not come with them", "[frames]") {
+  // A cube rocks on one edge, in the ground by `depth`. The corners of the opposite edge are at this height
+  // above the lower ones, before and after; all points are stated as if they were equally deep.
+  static constexpr double depth = 0.01;
+  const auto counts = [](double height_before, double height_after, std::size_t n_before,
+                         std::size_t n_after) {
+    Case c;
+    c.scene.shapes = {HalfSpace{Vec3::UnitZ(), 0}, Box{Vec3::Ones()}};
+    c.scene.bodies.resize(2);
+    c.scene.bodies[1].shape = 1;
+    Scene scenes[2] = {c.scene, c.scene};
+    Observation o[2];
+    const double heights[] = {height_before, height_after};
+    const std::size_t n[] = {n_before, n_after};
+    for (std::size_t k = 0; k < 2; ++k) {
+      const double angle = std::asin(heights[k] / 2);
+      Pose& pose = scenes[k].bodies[1].pose;
+      pose.rotation = {0, std::sin(angle / 2), 0, std::cos(angle / 2)};  // x sinks
+      pose.translation = Vec3(0, 0, std::sin(angle) + std::cos(angle) - depth);
+      o[k].outcome = Outcome::answered;
+      o[k].overlap = true;
+      o[k].normal = Vec3::UnitZ();
+      o[k].depth = depth;
+      for (std::size_t i = 0; i < n[k]; ++i)
+        o[k].manifold.push_back({Vec3(i & 2 ? -1 : 1, i & 1 ? 1 : -1, 0), depth});
+    }
+    fuzz::Truth before(scenes[0]), after(scenes[1]);
+    const fuzz::FrameChange change =
+        fuzz::change_between({before, o[0]}, {after, o[1]}, {Question::contact, 0, 1},
+                             EngineCard{"test", "", "", "", 0x1p-53, 64, ""}, 1);
+    return std::ranges::count(change.flickers, Flicker::count, &FlickerReport::flicker);
+  };
+  constexpr double low = 5.0e-4, high = 5.2e-4;
+  CHECK(counts(low, high, 4, 2) == 0);
+  CHECK(counts(high, low, 2, 4) == 0);
+  CHECK(counts(low, high, 2, 4) == 1);
+  CHECK(counts(high, low, 4, 2) == 1);
+  CHECK(counts(low, low, 2, 4) == 1);
+  CHECK(counts(low, high, 4, 4) == 0);
+}
+
 TEST_CASE("engines that lie about motions are found, each by what it does", "[frames][mutants]") {
   const auto& lies = mutants::motion_lies();
   CHECK(lies.size() >= 8);
