@@ -257,27 +257,23 @@ std::vector<Slacks> region_slacks(const Pair& p) {
   return all;
 }
 
-// The regions that the two frames have at one slack: at the height of each corner of a body in either frame,
-// and for what lies deeper than the other body's plane. An engine that takes corners up to some slack may
-// have begun or ceased there to take one.
-std::vector<std::array<referee::ContactRegion, 2>> regions_at_corners(const Pair& p) {
+// Whether holds(before, after) for the regions that the two frames have at some one slack: at the height of a
+// corner of a body in either frame, or for what lies deeper than the other body's plane. An engine that takes
+// corners up to some slack may have begun or ceased there to take one.
+template <class Holds>
+bool holds_at_corners(const Pair& p, const Holds& holds) {
   const double least = referee::contact_slack_factor * p.scale(), most = p.deepest();
-  std::vector<std::array<referee::ContactRegion, 2>> all;
-  const auto add = [&](const Slacks& before, const Slacks& after) {
-    all.push_back({region(p, p.before, before), region(p, p.after, after)});
+  const auto at = [&](const Slacks& before, const Slacks& after) {
+    return holds(region(p, p.before, before).vertices, region(p, p.after, after).vertices);
   };
   for (const AnsweredFrame* f : {&p.before, &p.after}) {
     const Vec3& n = *f->answer.normal;
     for (const auto& [body, ahead] : {std::pair(p.q.a, n), std::pair(p.q.b, Vec3(-n))})
       for (const double below : referee::corner_heights(f->truth.placed(0, body), ahead))
-        if (const double s = below + least / 2; s > least && s < most) add({s, s}, {s, s});
+        if (const double s = below + least / 2; s > least && s < most && at({s, s}, {s, s})) return true;
   }
   const double was = p.before.answer.depth.value_or(0), is = p.after.answer.depth.value_or(0);
-  if (std::min(was, is) > least) {
-    add({least, was}, {least, is});
-    add({was, least}, {is, least});
-  }
-  return all;
+  return std::min(was, is) > least && (at({least, was}, {least, is}) || at({was, least}, {is, least}));
 }
 
 // Whether the truth's normal leads from another kind of feature than before on either body: from an edge to a
@@ -296,10 +292,8 @@ bool switches_features(const Pair& p) {
 
 // Whether some slack gives the region more corners after than before, or fewer: as the points.
 bool gains_corners(const Pair& p, bool more) {
-  const auto all = regions_at_corners(p);
-  return std::any_of(all.begin(), all.end(), [&](const auto& r) {
-    const std::size_t was = r[0].vertices.size(), is = r[1].vertices.size();
-    return more ? is > was : is < was;
+  return holds_at_corners(p, [&](const Points& was, const Points& is) {
+    return more ? is.size() > was.size() : is.size() < was.size();
   });
 }
 
@@ -319,9 +313,7 @@ std::optional<std::array<double, 3>> moved_corners(const Pair& p) {
 
 // Whether the region jumps at least as far at one of these slacks.
 bool is_jump_of_region(const Pair& p, double by) {
-  const auto all = regions_at_corners(p);
-  return std::any_of(all.begin(), all.end(), [&](const auto& r) {
-    const Points &was = r[0].vertices, &is = r[1].vertices;
+  return holds_at_corners(p, [&](const Points& was, const Points& is) {
     return !was.empty() && !is.empty() && std::all_of(p.ways.begin(), p.ways.end(), [&](const Carried& way) {
       return set_distance(moved(way, was), is) >= by;
     });
@@ -459,7 +451,7 @@ void judge_manifolds(const Pair& p, int frame, FrameChange& out) {
   const Points was = points_of(p.before.answer), is = points_of(p.after.answer);
   if (was.size() != is.size()) {
     if (changes_at_surface(p, was.size(), is.size()) || !moved_corners(p)) return;
-    if (gains_corners(p, is.size() > was.size()) || switches_features(p)) return;
+    if (switches_features(p) || gains_corners(p, is.size() > was.size())) return;
     out.flickers.push_back(report(
         p, Flicker::count, frame, std::abs(static_cast<double>(is.size()) - static_cast<double>(was.size())),
         fmt::format("{} points after {}; the contact region keeps its corners", is.size(), was.size())));

@@ -98,6 +98,39 @@ std::size_t same_points(const Scene& before, const Scene& after, const Query& q,
   return n;
 }
 
+// A cube with half-extents 1 in the ground, and the points that an engine states of the contact, each as deep
+// as the whole.
+struct SunkCube {
+  Pose pose;
+  double depth = 0;
+  std::vector<Vec3> points;
+};
+
+std::ptrdiff_t flickers_of_count(const SunkCube& before, const SunkCube& after) {
+  Scene scene;
+  scene.shapes = {HalfSpace{Vec3::UnitZ(), 0}, Box{Vec3::Ones()}};
+  scene.bodies.resize(2);
+  scene.bodies[1].shape = 1;
+  const auto answer = [](const SunkCube& cube) {
+    Observation o;
+    o.outcome = Outcome::answered;
+    o.overlap = true;
+    o.normal = Vec3::UnitZ();
+    o.depth = cube.depth;
+    for (const Vec3& p : cube.points) o.manifold.push_back({p, cube.depth});
+    return o;
+  };
+  const Observation stated[2] = {answer(before), answer(after)};
+  Scene scenes[2] = {scene, scene};
+  scenes[0].bodies[1].pose = before.pose;
+  scenes[1].bodies[1].pose = after.pose;
+  fuzz::Truth was(scenes[0]), is(scenes[1]);
+  const fuzz::FrameChange change =
+      fuzz::change_between({was, stated[0]}, {is, stated[1]}, {Question::contact, 0, 1},
+                           EngineCard{"test", "", "", "", 0x1p-53, 64, ""}, 1);
+  return std::ranges::count(change.flickers, Flicker::count, &FlickerReport::flicker);
+}
+
 }  // namespace
 
 TEST_CASE("a motion has as many frames as queries, its bodies where the script puts them", "[frames]") {
@@ -192,29 +225,14 @@ TEST_CASE("a jump of the normal is true, tied or needless by what both normals n
 
 TEST_CASE("a point may come or go at the surface, but not below it", "[frames]") {
   // A cube sinks into the ground from one depth to another; so many of its corners are stated as points.
-  const auto counts = [](double depth_before, double depth_after, std::size_t n_before, std::size_t n_after) {
-    Case c;
-    c.scene.shapes = {HalfSpace{Vec3::UnitZ(), 0}, Box{Vec3::Ones()}};
-    c.scene.bodies.resize(2);
-    c.scene.bodies[1].shape = 1;
-    Scene scenes[2] = {c.scene, c.scene};
-    Observation o[2];
-    const double depths[] = {depth_before, depth_after};
-    const std::size_t n[] = {n_before, n_after};
-    for (std::size_t k = 0; k < 2; ++k) {
-      scenes[k].bodies[1].pose.translation = Vec3(0, 0, 1 - depths[k]);
-      o[k].outcome = Outcome::answered;
-      o[k].overlap = true;
-      o[k].normal = Vec3::UnitZ();
-      o[k].depth = depths[k];
-      for (std::size_t i = 0; i < n[k]; ++i)
-        o[k].manifold.push_back({Vec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, 0), depths[k]});
-    }
-    fuzz::Truth before(scenes[0]), after(scenes[1]);
-    const fuzz::FrameChange change =
-        fuzz::change_between({before, o[0]}, {after, o[1]}, {Question::contact, 0, 1},
-                             EngineCard{"test", "", "", "", 0x1p-53, 64, ""}, 1);
-    return std::ranges::count(change.flickers, Flicker::count, &FlickerReport::flicker);
+  const auto sunk = [](double depth, std::size_t n) {
+    SunkCube cube{{Vec3(0, 0, 1 - depth), {}}, depth, {}};
+    for (std::size_t i = 0; i < n; ++i) cube.points.push_back(Vec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, 0));
+    return cube;
+  };
+  const auto counts = [&](double depth_before, double depth_after, std::size_t n_before,
+                          std::size_t n_after) {
+    return flickers_of_count(sunk(depth_before, n_before), sunk(depth_after, n_after));
   };
   constexpr double step = 0x1p-10;
   CHECK(counts(0, step, 2, 4) == 0);  // two corners were above the ground and are now below it
@@ -231,36 +249,19 @@ TEST_CASE("a point may come or go at the surface, but not below it", "[frames]")
 }
 
 TEST_CASE("points may go with corners that rise above a threshold, but not come with them", "[frames]") {
-  // A cube rocks on one edge, in the ground by `depth`. The corners of the opposite edge are at this height
+  // A cube rocks on one edge, in the ground. The corners of the opposite edge are at this height
   // above the lower ones, before and after; all points are stated as if they were equally deep.
-  static constexpr double depth = 0.01;
-  const auto counts = [](double height_before, double height_after, std::size_t n_before,
-                         std::size_t n_after) {
-    Case c;
-    c.scene.shapes = {HalfSpace{Vec3::UnitZ(), 0}, Box{Vec3::Ones()}};
-    c.scene.bodies.resize(2);
-    c.scene.bodies[1].shape = 1;
-    Scene scenes[2] = {c.scene, c.scene};
-    Observation o[2];
-    const double heights[] = {height_before, height_after};
-    const std::size_t n[] = {n_before, n_after};
-    for (std::size_t k = 0; k < 2; ++k) {
-      const double angle = std::asin(heights[k] / 2);
-      Pose& pose = scenes[k].bodies[1].pose;
-      pose.rotation = {0, std::sin(angle / 2), 0, std::cos(angle / 2)};  // x sinks
-      pose.translation = Vec3(0, 0, std::sin(angle) + std::cos(angle) - depth);
-      o[k].outcome = Outcome::answered;
-      o[k].overlap = true;
-      o[k].normal = Vec3::UnitZ();
-      o[k].depth = depth;
-      for (std::size_t i = 0; i < n[k]; ++i)
-        o[k].manifold.push_back({Vec3(i & 2 ? -1 : 1, i & 1 ? 1 : -1, 0), depth});
-    }
-    fuzz::Truth before(scenes[0]), after(scenes[1]);
-    const fuzz::FrameChange change =
-        fuzz::change_between({before, o[0]}, {after, o[1]}, {Question::contact, 0, 1},
-                             EngineCard{"test", "", "", "", 0x1p-53, 64, ""}, 1);
-    return std::ranges::count(change.flickers, Flicker::count, &FlickerReport::flicker);
+  const auto rocked = [](double height, std::size_t n) {
+    constexpr double depth = 0.01;
+    const double angle = std::asin(height / 2);
+    const Quat turn{0, std::sin(angle / 2), 0, std::cos(angle / 2)};  // x sinks
+    SunkCube cube{{Vec3(0, 0, std::sin(angle) + std::cos(angle) - depth), turn}, depth, {}};
+    for (std::size_t i = 0; i < n; ++i) cube.points.push_back(Vec3(i & 2 ? -1 : 1, i & 1 ? 1 : -1, 0));
+    return cube;
+  };
+  const auto counts = [&](double height_before, double height_after, std::size_t n_before,
+                          std::size_t n_after) {
+    return flickers_of_count(rocked(height_before, n_before), rocked(height_after, n_after));
   };
   constexpr double low = 5.0e-4, high = 5.2e-4;
   CHECK(counts(low, high, 4, 2) == 0);
