@@ -64,6 +64,20 @@ std::vector<std::uint32_t> ids(const Manifold& m) {
   return r;
 }
 
+// From the nearest segment between two points of the manifold. Crossings of nearly parallel edges run along
+// the border of the same region, far and rightly.
+double distance_from(const Manifold& m, const Vec3& p) {
+  double nearest = 1e9;
+  for (const ContactPoint& from : m)
+    for (const ContactPoint& to : m) {
+      const Vec3 e = to.position - from.position;
+      const double length = e.squaredNorm();
+      const double share = length > 0 ? std::clamp((p - from.position).dot(e) / length, 0.0, 1.0) : 0.0;
+      nearest = std::min(nearest, (from.position + share * e - p).norm());
+    }
+  return nearest;
+}
+
 // Upper bound on how far a point of a body, within its ball, has moved.
 double step_of(const Scene& from, const Scene& to, std::size_t i, double& turn) {
   const Pose &p = from.bodies[i].pose, &q = to.bodies[i].pose;
@@ -89,10 +103,7 @@ void compare(const Scene& from, const Scene& to, Jitter& j) {
       continue;
     }
     for (const ContactPoint& p : t.after.manifold) {
-      double nearest = 1e9;
-      for (const ContactPoint& q : t.before.manifold)
-        if (q.feature == p.feature) nearest = std::min(nearest, (p.position - q.position).norm());
-      j.point.push_back(std::max(0.0, nearest - step));
+      j.point.push_back(std::max(0.0, distance_from(t.before.manifold, p.position) - step));
       ++j.points;
     }
   }
@@ -125,7 +136,7 @@ Jitter measure(const char* name, int first, int last) {
 TEST_CASE("contacts of piles at rest do not change from frame to frame", "[narrow][manifold][data]") {
   const auto scenes = test::shared_data() / "scenes";
   if (!std::filesystem::exists(scenes)) return test::skip(scenes.string() + " is absent");
-  // The rest is geometry: deepest points of rocking cylinders, crossings of nearly parallel edges.
+  // The rest is geometry: deepest points of rocking cylinders, contacts that end at nearly parallel edges.
   for (const Jitter& j : {measure("stack_smash", 0, 9), measure("pile_mixed", 90, 99)}) {
     CHECK(j.pairs > 1000);
     CHECK(j.points > j.pairs);
@@ -133,6 +144,6 @@ TEST_CASE("contacts of piles at rest do not change from frame to frame", "[narro
     CHECK(quantile(j.normal, 0.5) <= 1e-12);
     CHECK(quantile(j.normal, 0.99) <= 1e-3);
     CHECK(quantile(j.point, 0.5) <= 1e-12);
-    CHECK(quantile(j.point, 0.99) <= 0.02);
+    CHECK(quantile(j.point, 0.99) <= 1e-3);
   }
 }
