@@ -51,6 +51,10 @@ inline constexpr double manifold_face_factor = 0x1p-50;
 /// Tested by: tests/core "nearly parallel faces and edges have a whole contact".
 inline constexpr double manifold_region_factor = 0x1p-10;
 
+/// Points of nearly parallel features that are nearer to each other than this · size are one.
+/// Tested by: tests/core "a contact of nearly parallel features has no point twice".
+inline constexpr double manifold_same_factor = 0x1p-14;
+
 /// Rounded edges that are within this · size of each other across the contact count as parallel: about what
 /// the rounding of a pose to float moves them.
 /// Tested by: tests/core "nearly parallel faces and edges have a whole contact".

@@ -68,39 +68,30 @@ struct BoxCore : Polyhedral<R> {
   bool face_corners(const FaceQuery<R>& at, Out&& out) const {
     const V3<R>&d = at.d, h = half();
     int free[3], frees = 0;
-    unsigned top = 0;
     for (int k = 0; k < 3; ++k) {
-      if (d[k] >= 0) top |= 1u << k;
       // Across a flat box the corners coincide: four of them do not form a face.
       if (h[k] > at.tolerance && 2 * abs(d[k]) * h[k] <= at.limit) free[frees++] = k;
     }
-    const auto corner = [&](unsigned bits) {
-      out.add({bits & 1 ? h[0] : -h[0], bits & 2 ? h[1] : -h[1], bits & 4 ? h[2] : -h[2]}, bits);
-    };
+    const auto show = [&](unsigned bits) { out.add(corner(bits), bits); };
     if (frees == 3) {
-      for (unsigned bits = 0; bits < 8; ++bits) corner(bits);
+      for (unsigned bits = 0; bits < 8; ++bits) show(bits);
       return false;
     }
-    corner(top);
+    const unsigned top = support_bits(d);
+    show(top);
     if (frees == 0) return false;
     const unsigned p = 1u << free[0];
-    corner(top ^ p);
+    show(top ^ p);
     if (frees == 1) return false;
     const unsigned q = 1u << free[1];
-    corner(top ^ p ^ q);
-    corner(top ^ q);
+    show(top ^ p ^ q);
+    show(top ^ q);
     return true;
   }
   template <class Out>
   void edges_within(const FaceQuery<R>& at, Out&& out) const {
-    const V3<R>&d = at.d, h = half();
-    const V3<R> height = 2 * d.cwiseAbs().cwiseProduct(h);
-    unsigned top = 0;
-    for (int k = 0; k < 3; ++k)
-      if (d[k] >= 0) top |= 1u << k;
-    const auto corner = [&](unsigned bits) {
-      return V3<R>(bits & 1 ? h[0] : -h[0], bits & 2 ? h[1] : -h[1], bits & 4 ? h[2] : -h[2]);
-    };
+    const V3<R> height = 2 * at.d.cwiseAbs().cwiseProduct(half());
+    const unsigned top = support_bits(at.d);
     // Downwards from the support corner: `far` has the axes along which a corner is on the other side.
     for (unsigned far = 0; far < 7; ++far) {
       R below = 0;
@@ -108,13 +99,10 @@ struct BoxCore : Polyhedral<R> {
         if (far >> k & 1) below += height[k];
       if (below > at.limit) continue;
       const unsigned from = top ^ far;
-      bool begun = false;
+      out.from(corner(from), from);
       for (int k = 0; k < 3; ++k) {
         if (far >> k & 1) continue;
         const R share = below + height[k] <= at.limit ? R(1) : (at.limit - below) / height[k];
-        if (!out.takes(share)) continue;
-        if (!begun) out.from(corner(from), from);
-        begun = true;
         out.to(corner(from ^ 1u << k), from ^ 1u << k, share);
       }
     }
@@ -123,6 +111,19 @@ struct BoxCore : Polyhedral<R> {
     R most = 0;
     for (int k = 0; k < 3; ++k) most = std::max(most, reach_along(at, 2 * half()[k], at.d[k]));
     return most;
+  }
+
+ private:
+  static unsigned support_bits(const V3<R>& d) {
+    unsigned bits = 0;
+    for (int k = 0; k < 3; ++k)
+      if (d[k] >= 0) bits |= 1u << k;
+    return bits;
+  }
+  // Bit k is set on the positive side of axis k.
+  V3<R> corner(unsigned bits) const {
+    const V3<R> h = half();
+    return {bits & 1 ? h[0] : -h[0], bits & 2 ? h[1] : -h[1], bits & 4 ? h[2] : -h[2]};
   }
 };
 

@@ -77,30 +77,25 @@ struct ConeCore {
   }
   template <class Out>
   bool face_corners(const FaceQuery<R>& at, Out&& out) const {
-    const V3<R>& d = at.d;
-    const R flat = flat_length(d);
-    // The base of a cone that is nearly flat is a face on both sides.
-    const bool is_base = d[2] < 0 || 2 * half_height * d[2] <= at.limit;
-    if (is_base && 2 * flat * radius <= at.limit) {
-      add_rim_corners(radius, -half_height, out);
-    } else {
-      const R k = flat > 0 ? radius / flat : R(0);
-      out.add(apex(), 0);
-      if (flat > 0) out.add({d[0] * k, d[1] * k, -half_height}, 1);
-    }
+    out.add(apex(), 0);
+    if (has_whole_rim(at))
+      add_rim_corners(radius, -half_height, at, 1, 2, out);
+    else if (flat_length(at.d) > 0)
+      out.add(rim_support(radius, -half_height, at.d), 1);
     return false;
   }
   // The generator through the support point, unless the whole rim is within the limit.
   template <class Out>
   void edges_within(const FaceQuery<R>& at, Out&& out) const {
-    const R flat = flat_length(at.d);
-    if (!(2 * flat * radius > at.limit)) return;
-    const R k = radius / flat;
-    edge_within<R>(at, apex(), 0, {at.d[0] * k, at.d[1] * k, -half_height}, 1, out);
+    if (flat_length(at.d) > 0 && !has_whole_rim(at))
+      edge_within<R>(at, apex(), 0, rim_support(radius, -half_height, at.d), 1, out);
   }
   R edge_reach(const FaceQuery<R>&) const { return 2 * half_height + radius; }
 
  private:
+  bool has_whole_rim(const FaceQuery<R>& at) const {
+    return at.top + half_height * at.d[2] + radius * flat_length(at.d) <= at.limit;
+  }
   V3<R> apex() const { return {0, 0, half_height}; }
   bool is_apex(const V3<R>& d, R flat) const { return d[2] * 2 * half_height > radius * flat; }
 };

@@ -34,7 +34,6 @@ struct AnyCorners {
 /// Takes edges that begin near a support plane, likewise.
 template <class R>
 struct AnyEdges {
-  bool takes(R) const { return true; }
   void from(const V3<R>&, std::uint32_t) {}
   void to(const V3<R>&, std::uint32_t, R) {}
 };
@@ -80,7 +79,7 @@ concept CoreModule = std::is_trivially_copyable_v<C> &&
   // Corners of the supporting face; true: in convex order, either way round.
   { c.face_corners(face, corners) } -> std::same_as<bool>;
   // The edges from those corners, to others of them or farther from the plane, each as edge_within() shows
-  // it; none of a hull with more than four vertices, whose edges are not at hand.
+  // it.
   c.edges_within(face, edges);
   // A bound, up to rounding, of the lengths of what of those edges is within the limit.
   { c.edge_reach(face) } -> std::same_as<R>;

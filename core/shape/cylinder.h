@@ -60,13 +60,13 @@ struct CylinderCore {
   template <class Out>
   bool face_corners(const FaceQuery<R>& at, Out&& out) const {
     const V3<R>& d = at.d;
-    const R flat = flat_length(d);
+    const R flat = flat_length(d), z = toward(half_height, d[2]);
     if (2 * flat * radius <= at.limit) {
-      add_rim_corners(radius, toward(half_height, d[2]), out);
+      constexpr std::uint32_t first = 2, corners = rim_corners;
+      add_rim_corners(radius, z, at, z > 0 ? 0 : 1, z > 0 ? first : first + corners, out);
     } else {
-      const R k = flat > 0 ? radius / flat : R(0);
-      out.add({d[0] * k, d[1] * k, half_height}, 0);
-      out.add({d[0] * k, d[1] * k, -half_height}, 1);
+      out.add(rim_support(radius, half_height, d), 0);
+      out.add(rim_support(radius, -half_height, d), 1);
     }
     return false;
   }

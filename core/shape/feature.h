@@ -152,7 +152,7 @@ struct FaceQuery {
 
 /// Shows an edge to `out` if an end of it is within the limit: out.from(end, id), then out.to(other, id,
 /// share). The other is within it too, with share 1, or the edge leaves it after this share of its length; of
-/// two ends within it, the lower one comes second. `out.takes(share)` false: this one is not asked for.
+/// two ends within it, the lower one comes second.
 template <class R, class Out>
 void edge_within(const FaceQuery<R>& at, const V3<R>& p, std::uint32_t p_id, const V3<R>& q,
                  std::uint32_t q_id, Out&& out) {
@@ -160,7 +160,6 @@ void edge_within(const FaceQuery<R>& at, const V3<R>& p, std::uint32_t p_id, con
   if (p_below > q_below) return edge_within(at, q, q_id, p, p_id, out);
   if (p_below > at.limit) return;
   const R share = q_below <= at.limit ? R(1) : (at.limit - p_below) / (q_below - p_below);
-  if (!out.takes(share)) return;
   out.from(p, p_id);
   out.to(q, q_id, share);
 }

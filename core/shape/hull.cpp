@@ -1,11 +1,14 @@
-// Computes the faces of a hull by qhull and its dimension by exact arithmetic on the doubles.
+// Computes the faces of a hull by qhull, and its dimension and the outline of a flat one by exact arithmetic
+// on the doubles.
 #include "core/shape/hull.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <limits>
 #include <memory>
+#include <numeric>
 
 extern "C" {
 #include <libqhull_r/qhull_ra.h>
@@ -14,6 +17,7 @@ extern "C" {
 #include "core/base/exact_text.h"
 #include "core/base/input_error.h"
 #include "core/math/expansion.h"
+#include "core/shape/hull_edges.h"
 
 namespace touchstone {
 namespace {
@@ -114,6 +118,83 @@ std::vector<std::array<int, 3>> triangulated_faces(const std::vector<Vec3>& v) {
   return faces;
 }
 
+// Two faces are in one plane if the corner of one is this near the other's plane, relative to the size of the
+// hull. A contact loses no more by the edge between them.
+constexpr double same_plane = 0x1p-20;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+// An edge of a face, from a to b, and the face's third corner.
+struct FaceSide {
+  int a, b, third;
+  auto key() const { return std::pair(std::min(a, b), std::max(a, b)); }
+};
+
+convex::VertexEdges edges_between(const std::vector<std::array<int, 3>>& faces, const std::vector<Vec3>& v) {
+  std::vector<FaceSide> sides;
+  for (const auto& f : faces)
+    for (std::size_t k = 0; k < 3; ++k) sides.push_back({f[k], f[(k + 1) % 3], f[(k + 2) % 3]});
+  const auto is_before = [](const FaceSide& x, const FaceSide& y) {
+    return std::pair(x.key(), x.a) < std::pair(y.key(), y.a);
+  };
+  std::sort(sides.begin(), sides.end(), is_before);
+  const double near = same_plane * largest_half_extent(v);
+  convex::VertexEdges edges;
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    const FaceSide& s = sides[i];
+    const Vec3 &p = v[at(s.a)], n = (v[at(s.b)] - p).cross(v[at(s.third)] - p);
+    const bool has_twin = i + 1 < sides.size() && sides[i + 1].key() == s.key();
+    if (!has_twin || std::abs(n.dot(v[at(sides[i + 1].third)] - p)) > near * n.norm())
+      edges.push_back({s.a, s.b});
+    if (has_twin) ++i;
+  }
+  return edges;
+}
+
+// The coordinate axis along which a flat hull is seen from its broad side.
+int broad_axis(const std::vector<Vec3>& v) {
+  Vec3 length = Vec3::Zero(), normal = Vec3::Zero();
+  for (const Vec3& p : v)
+    if ((p - v[0]).norm() > length.norm()) length = p - v[0];
+  for (const Vec3& p : v)
+    if (const Vec3 n = length.cross(p - v[0]); n.norm() > normal.norm()) normal = n;
+  int axis = 0;
+  if (normal.norm() > 0)
+    normal.cwiseAbs().maxCoeff(&axis);
+  else
+    length.cwiseAbs().minCoeff(&axis);
+  return axis;
+}
+
+// Of at most two dimensions, or nearly so. Andrew's monotone chain (1979).
+convex::VertexEdges outline_of(const std::vector<Vec3>& v) {
+  const int axis = broad_axis(v), x = (axis + 1) % 3, y = (axis + 2) % 3;
+  std::vector<int> order(v.size()), outline;
+  std::iota(order.begin(), order.end(), 0);
+  const auto place = [&](int i) { return std::pair(v[at(i)][x], v[at(i)][y]); };
+  std::sort(order.begin(), order.end(), [&](int i, int k) { return place(i) < place(k); });
+  order.erase(std::unique(order.begin(), order.end(), [&](int i, int k) { return place(i) == place(k); }),
+              order.end());
+  const auto turns_left = [&](int i, int j, int k) {
+    const Vec3 &p = v[at(i)], &q = v[at(j)], &r = v[at(k)];
+    return orient2d_sign(p[x], p[y], q[x], q[y], r[x], r[y]) > 0;
+  };
+  for (int pass = 0; pass < 2; ++pass) {
+    const std::size_t base = outline.size();
+    for (const int k : order) {
+      while (outline.size() >= base + 2 && !turns_left(outline.end()[-2], outline.back(), k))
+        outline.pop_back();
+      outline.push_back(k);
+    }
+    outline.pop_back();
+    std::reverse(order.begin(), order.end());
+  }
+  convex::VertexEdges edges;
+  const std::size_t n = outline.size();
+  for (std::size_t i = 0; i < (n == 2 ? 1 : n); ++i) edges.push_back({outline[i], outline[(i + 1) % n]});
+  return edges;
+}
+
 }  // namespace
 
 Hull make_hull(std::vector<Vec3> vertices) {
@@ -124,7 +205,15 @@ Hull make_hull(std::vector<Vec3> vertices) {
   h.dimension = affine_dimension(vertices);
   if (h.dimension == 3) h.faces = triangulated_faces(vertices);
   h.vertices = std::move(vertices);
+  derive_edges(h);
   return h;
+}
+
+void derive_edges(Hull& h) {
+  h.edges.clear();
+  for (const Vec3& v : h.vertices)
+    if (!v.allFinite()) return;
+  h.edges = h.faces.empty() ? outline_of(h.vertices) : edges_between(h.faces, h.vertices);
 }
 
 InnerRadii Hull::inner_radii() const {

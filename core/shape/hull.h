@@ -17,17 +17,21 @@
 
 namespace touchstone::convex {
 
-/// The vertices of a hull or a triangle, times `unit`. Refers to them and to the graph.
+/// Two vertices each, by index.
+using VertexEdges = std::vector<std::array<int, 2>>;
+
+/// The vertices of a hull or a triangle, times `unit`. Refers to them, their edges and the graph.
 template <class R>
 struct VerticesCore : Polyhedral<R> {
   static constexpr Symmetry symmetry = Symmetry::none;
   static constexpr int support_rounding = 6;
   std::span<const Vec3> vertices;
-  const HullGraph* graph = nullptr;  // of `vertices`, or null
-  R unit = 1;                        // power of two
+  const VertexEdges* edges = nullptr;  // of `vertices`; null: all are neighbours
+  const HullGraph* graph = nullptr;    // of `vertices`, or null
+  R unit = 1;                          // power of two
 
-  explicit VerticesCore(std::span<const Vec3> v, const HullGraph* g = nullptr)
-      : vertices(v), graph(g && *g ? g : nullptr) {}
+  explicit VerticesCore(std::span<const Vec3> v, const VertexEdges* e = nullptr, const HullGraph* g = nullptr)
+      : vertices(v), edges(e), graph(g && *g ? g : nullptr) {}
 
   V3<R> support(const V3<R>& d) const {
     if constexpr (is_hardware<R>)
@@ -95,16 +99,29 @@ struct VerticesCore : Polyhedral<R> {
     for (std::size_t i = 0; i < vertices.size(); ++i) out.add_many(vertex(i), static_cast<std::uint32_t>(i));
     return false;
   }
-  // Of a simplex, whose corners are all neighbours.
   template <class Out>
   void edges_within(const FaceQuery<R>& at, Out&& out) const {
-    if (vertices.size() > 4) return;
-    for (std::uint32_t i = 0; i < vertices.size(); ++i)
-      for (std::uint32_t k = 0; k < i; ++k) edge_within<R>(at, vertex(i), i, vertex(k), k, out);
+    const auto show = [&](std::size_t i, std::size_t k) {
+      edge_within<R>(at, vertex(i), static_cast<std::uint32_t>(i), vertex(k), static_cast<std::uint32_t>(k),
+                     out);
+    };
+    if (!edges) {
+      for (std::size_t i = 0; i < vertices.size(); ++i)
+        for (std::size_t k = 0; k < i; ++k) show(i, k);
+      return;
+    }
+    // Each vertex belongs to several edges.
+    constexpr std::size_t most = 128;
+    std::array<bool, most> is_within;
+    const bool is_noted = vertices.size() <= most;
+    for (std::size_t i = 0; is_noted && i < vertices.size(); ++i)
+      is_within[i] = at.top - at.d.dot(vertex(i)) <= at.limit;
+    for (const auto& edge : *edges) {
+      const auto i = static_cast<std::size_t>(edge[0]), k = static_cast<std::size_t>(edge[1]);
+      if (!is_noted || is_within[i] || is_within[k]) show(i, k);
+    }
   }
-  R edge_reach(const FaceQuery<R>&) const {
-    return vertices.size() > 4 ? R(0) : std::numeric_limits<R>::infinity();
-  }
+  R edge_reach(const FaceQuery<R>&) const { return std::numeric_limits<R>::infinity(); }
 
  private:
   V3<R> vertex(std::size_t i) const { return vertices[i].template cast<R>() * unit; }
@@ -134,12 +151,14 @@ struct Hull {
   std::vector<std::array<int, 3>> faces;
   /// Affine dimension of the vertices, 0 to 3, decided exactly on the doubles. Derived.
   int dimension = 0;
+  /// Where faces meet that are not in one plane; the outline of a hull without faces. Derived.
+  convex::VertexEdges edges{};
   static constexpr std::string_view type = "hull";
   static constexpr auto fields() { return std::tuple{Field{"vertices", &Hull::vertices, Domain::any}}; }
 
   template <class R>
   convex::VerticesCore<R> core(const HullGraph* graph = nullptr) const {
-    return convex::VerticesCore<R>(vertices, graph);
+    return convex::VerticesCore<R>(vertices, &edges, graph);
   }
   static constexpr bool has_ball = false;
   double ball_radius() const { return 0; }
@@ -155,7 +174,8 @@ struct Hull {
   bool operator==(const Hull& o) const { return vertices == o.vertices; }
 };
 
-/// Computes faces and dimension. Throws InputError when there are no vertices or a coordinate is not finite.
+/// Computes faces, edges and dimension. Throws InputError when there are no vertices or a coordinate is not
+/// finite.
 Hull make_hull(std::vector<Vec3> vertices);
 
 inline Vec3 support(const Hull& h, const Vec3& d) {

@@ -120,11 +120,30 @@ void add_rim_curvature(R radius, const Tangents<R>& at, const Cap<R>& cap, Tange
   form.add(radius / (most * most * most), at.y[2], -at.x[2]);
 }
 
-/// Corners of the disc's polygon. Ids of rim points rotate with the body.
+/// The polygon that represents the rim of a disc at height z. Its corners turn with the body; but where the
+/// disc leans, the rim's support point takes the place of the nearest one. Ids: `highest` of the support
+/// point, first + k of corner k.
 template <class R, class Out>
-void add_rim_corners(R radius, R z, Out&& out) {
-  std::uint32_t id = 0;
-  for (const auto& [x, y] : rim()) out.add({radius * static_cast<R>(x), radius * static_cast<R>(y), z}, id++);
+void add_rim_corners(R radius, R z, const FaceQuery<R>& at, std::uint32_t highest, std::uint32_t first,
+                     Out&& out) {
+  const R flat = flat_length(at.d);
+  std::array<V3<R>, rim_corners> corner;
+  std::size_t nearest = 0;
+  R most = -1;
+  for (std::size_t i = 0; i < rim_corners; ++i) {
+    const auto& [x, y] = rim()[i];
+    corner[i] = {radius * static_cast<R>(x), radius * static_cast<R>(y), z};
+    if (const R along = at.d[0] * corner[i][0] + at.d[1] * corner[i][1]; along > most) {
+      most = along;
+      nearest = i;
+    }
+  }
+  const bool leans = 2 * flat * radius > at.tolerance;
+  for (std::size_t i = 0; i < rim_corners; ++i)
+    if (leans && i == nearest)
+      out.add(rim_support(radius, z, at.d), highest);
+    else
+      out.add(corner[i], first + static_cast<std::uint32_t>(i));
 }
 
 }  // namespace touchstone::convex

@@ -44,7 +44,10 @@ Json plain_shape(const JsonReader& r) {
   if (r.has("triangles")) r["triangles"].fail("belongs to meshes");
   if (type == type_name(ShapeKind::hull)) return {{"type", type}, {"vertices", rows(numbers)}};
   std::string text = type;
-  for (const JsonReader& x : numbers.items()) text += " " + to_text(x.number());
+  for (const JsonReader& x : numbers.items()) {
+    text += ' ';
+    text += to_text(x.number());
+  }
   return body_from_text(text, r.place())["shape"];
 }
 

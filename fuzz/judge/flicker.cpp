@@ -259,7 +259,8 @@ std::vector<Slacks> region_slacks(const Pair& p) {
 
 // Whether holds(before, after) for the regions that the two frames have at some one slack: at the height of a
 // corner of a body in either frame, or for what lies deeper than the other body's plane. An engine that takes
-// corners up to some slack may have begun or ceased there to take one.
+// corners up to some slack may have begun or ceased there to take one. Or for the corners of what one body
+// has beyond the other's face, where edges begin or cease to cross the face's border.
 template <class Holds>
 bool holds_at_corners(const Pair& p, const Holds& holds) {
   const double least = referee::contact_slack_factor * p.scale(), most = p.deepest();
@@ -273,7 +274,19 @@ bool holds_at_corners(const Pair& p, const Holds& holds) {
         if (const double s = below + least / 2; s > least && s < most && at({s, s}, {s, s})) return true;
   }
   const double was = p.before.answer.depth.value_or(0), is = p.after.answer.depth.value_or(0);
-  return std::min(was, is) > least && (at({least, was}, {least, is}) || at({was, least}, {is, least}));
+  if (std::min(was, is) > least && (at({least, was}, {least, is}) || at({was, least}, {is, least})))
+    return true;
+  const auto beyond = [&](const AnsweredFrame& f, bool face_of_a) {
+    const Placed a = f.truth.placed(0, p.q.a), b = f.truth.placed(0, p.q.b);
+    const Vec3& n = *f.answer.normal;
+    return face_of_a ? referee::corners_beyond_face(a, b, n, least)
+                     : referee::corners_beyond_face(b, a, -n, least);
+  };
+  for (const bool face_of_a : {true, false}) {
+    const auto deep_before = beyond(p.before, face_of_a), deep_after = beyond(p.after, face_of_a);
+    if (deep_before && deep_after && holds(*deep_before, *deep_after)) return true;
+  }
+  return false;
 }
 
 // Whether the truth's normal leads from another kind of feature than before on either body: from an edge to a
@@ -290,11 +303,57 @@ bool switches_features(const Pair& p) {
   return of(p.before, p.q.a, 1) != of(p.after, p.q.a, 1) || of(p.before, p.q.b, -1) != of(p.after, p.q.b, -1);
 }
 
-// Whether some slack gives the region more corners after than before, or fewer: as the points.
+double rim_radius(const Shape& s) {
+  return std::visit(
+      []<class S>(const S& x) -> double {
+        if constexpr (std::is_same_v<S, Cylinder> || std::is_same_v<S, Cone>)
+          return x.radius;
+        else if constexpr (requires { x.inner; })
+          return rim_radius(Shape(x.inner));
+        else
+          return 0;
+      },
+      s);
+}
+
+// Whether more ends of rims are within some slack of a body's support plane after than before, or fewer. An
+// engine that takes a rim only as a whole may have begun or ceased there to do so.
+bool gains_rims(const Pair& p, bool more) {
+  const double least = referee::contact_slack_factor * p.scale(), most = p.deepest();
+  for (const bool is_a : {true, false}) {
+    const int body = is_a ? p.q.a : p.q.b;
+    if (rim_radius(p.after.truth.scene().shape_of(body)) == 0) continue;
+    const auto heights = [&](const AnsweredFrame& f) {
+      return referee::corner_heights(f.truth.placed(0, body), (is_a ? 1 : -1) * *f.answer.normal);
+    };
+    const auto within = [&](const std::vector<double>& h, double slack) {
+      return std::count_if(h.begin(), h.end(), [&](double x) { return x <= slack; });
+    };
+    const auto was = heights(p.before), is = heights(p.after);
+    const auto holds = [&](double before, double after) {
+      const auto n = within(was, before), m = within(is, after);
+      return more ? m > n : m < n;
+    };
+    for (const auto* all : {&was, &is})
+      for (const double h : *all)
+        if (h > least && h < most && holds(h, h)) return true;
+    if (holds(p.before.answer.depth.value_or(0), p.after.answer.depth.value_or(0))) return true;
+  }
+  return false;
+}
+
+// Whether some slack gives the region more corners after than before, or fewer: as the points; or lets it
+// grow, or shrink, farther than the bodies move.
 bool gains_corners(const Pair& p, bool more) {
-  return holds_at_corners(p, [&](const Points& was, const Points& is) {
-    return more ? is.size() > was.size() : is.size() < was.size();
-  });
+  const Vec3& n = *p.after.answer.normal;
+  const double least = p.least_change() + referee::contact_slack_factor * p.scale();
+  const auto grows = [&](const Points& was, const Points& is) {
+    return is.size() > was.size() ||
+           referee::spanned_length(is, n) > referee::spanned_length(was, n) + 2 * least;
+  };
+  return gains_rims(p, more) || holds_at_corners(p, [&](const Points& was, const Points& is) {
+           return more ? grows(was, is) : grows(is, was);
+         });
 }
 
 // How far the corners of the contact region move, seen in each of the three ways: the most over the regions
@@ -374,10 +433,16 @@ std::optional<Renamed> renamed_point(const Pair& p) {
   constexpr double clearly = 1e-3;  // of the scale
   const double same = 4 * (referee::contact_slack_factor * p.scale() + p.rounding());
   const double other = std::max(2 * same, clearly * p.scale());
-  for (const auto& [name, body, way] :
-       {std::tuple("A", p.q.a, p.ways[1]), std::tuple("B", p.q.b, p.ways[2])}) {
-    if (!has_corners(p.after.truth.scene().shape_of(body))) continue;
+  const Scene& s = p.after.truth.scene();
+  if (!has_corners(s.shape_of(p.q.a)) || !has_corners(s.shape_of(p.q.b))) return std::nullopt;
+  const auto is_alone = [&](const ManifoldPoint& m) {
+    return std::none_of(
+        p.after.answer.manifold.begin(), p.after.answer.manifold.end(),
+        [&](const ManifoldPoint& x) { return &x != &m && (x.position - m.position).norm() <= other; });
+  };
+  for (const auto& [name, way] : {std::pair("A", p.ways[1]), std::pair("B", p.ways[2])}) {
     for (const ManifoldPoint& is : p.after.answer.manifold) {
+      if (!is_alone(is)) continue;
       const ManifoldPoint* const was = point_at(way, p.before.answer.manifold, is.position, same, other);
       if (was && was->id && is.id && *was->id != *is.id) return Renamed{name, was, &is};
     }
@@ -385,12 +450,29 @@ std::optional<Renamed> renamed_point(const Pair& p) {
   return std::nullopt;
 }
 
+// How far a rim bulges between two points that stand for it, at most.
+double bulge(const Pair& p) {
+  constexpr double step = std::numbers::pi / 8;  // between the two
+  const Scene& s = p.after.truth.scene();
+  return std::max(rim_radius(s.shape_of(p.q.a)), rim_radius(s.shape_of(p.q.b))) * (1 - std::cos(step / 2));
+}
+
+// The largest distance of a point of either set from the hull of the other. A point that moves inside it, as
+// the deepest of a face that rocks does, leaves the contact as it is.
+double hull_distance(const Points& x, const Points& y, const Vec3& normal) {
+  double worst = 0;
+  for (const Vec3& p : x) worst = std::max(worst, referee::distance_from_span(p, y, normal));
+  for (const Vec3& p : y) worst = std::max(worst, referee::distance_from_span(p, x, normal));
+  return worst;
+}
+
 // How much farther the points move than the region's corners, at least, however they are carried along.
-double excess_of_points(const Pair& p, const Points& was, const Points& is) {
-  const double slack = 4 * (referee::contact_slack_factor * p.scale() + p.rounding());
+double excess_of_points(const Pair& p, const Points& was, const Points& is, double allowed) {
+  const double slack = 4 * (referee::contact_slack_factor * p.scale() + p.rounding()) + allowed;
+  const Vec3& normal = *p.after.answer.normal;
   std::array<double, 3> beyond{};
   for (std::size_t k = 0; k < beyond.size(); ++k)
-    beyond[k] = set_distance(moved(p.ways[k], was), is) - p.ways[k].change - slack;
+    beyond[k] = hull_distance(moved(p.ways[k], was), is, normal) - p.ways[k].change - slack;
   if (!(*std::min_element(beyond.begin(), beyond.end()) > 0)) return 0;
   const auto of_region = moved_corners(p);
   if (!of_region) return 0;
@@ -450,6 +532,8 @@ bool changes_at_surface(const Pair& p, std::size_t was, std::size_t is) {
 void judge_manifolds(const Pair& p, int frame, FrameChange& out) {
   const Points was = points_of(p.before.answer), is = points_of(p.after.answer);
   if (was.size() != is.size()) {
+    // A rim has no corners to count.
+    if (const double b = bulge(p); b > 0 && excess_of_points(p, was, is, b) == 0) return;
     if (changes_at_surface(p, was.size(), is.size()) || !moved_corners(p)) return;
     if (switches_features(p) || gains_corners(p, is.size() > was.size())) return;
     out.flickers.push_back(report(
@@ -458,7 +542,9 @@ void judge_manifolds(const Pair& p, int frame, FrameChange& out) {
     return;
   }
   if (is.empty()) return;
-  if (const double excess = excess_of_points(p, was, is); excess > 0) {
+  // Many points of a contact with a rim stand for the rim, wherever they are on it.
+  constexpr std::size_t many = 8;
+  if (const double excess = excess_of_points(p, was, is, is.size() < many ? 0 : bulge(p)); excess > 0) {
     out.flickers.push_back(
         report(p, Flicker::points, frame, excess,
                fmt::format("the points move {:.6g} farther than the corners of the contact region", excess)));

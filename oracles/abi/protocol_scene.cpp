@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "core/shape/hull_edges.h"
+
 namespace touchstone::protocol {
 namespace {
 
@@ -62,6 +64,7 @@ Shape get_shape(Reader& r) {
     h->dimension = r.get<std::int32_t>();
     if (h->vertices.empty() || h->dimension < 0 || h->dimension > 3) throw Malformed("an invalid hull");
     check_indices(h->faces, h->vertices.size());
+    derive_edges(*h);
   }
   if (const TriangleMesh* m = triangles_if(shape)) check_indices(m->triangles, m->vertices.size());
   return shape;

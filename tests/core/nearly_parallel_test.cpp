@@ -1,6 +1,7 @@
 // Contacts of faces and edges that are parallel up to a small angle, against the referee's contact region.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -59,10 +60,15 @@ TEST_CASE("deep points stay when a corner beyond the border of a face passes its
   // A tilted box hangs over an edge of a table and rises from it: one corner after the other leaves the plane
   // of the table top, those beside the table last or first.
   constexpr double step = 1e-3, deep = 0.02, near = 0.02;
-  const auto manifold = [](double tilt, double turn, double height) {
+  const Vec3 half(0.5, 0.4, 0.2);
+  std::vector<Vec3> corners;
+  for (int i = 0; i < 8; ++i)
+    corners.push_back(half.cwiseProduct(Vec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1)));
+  const Shape shape = GENERATE_COPY(Shape(Box{half}), Shape(make_hull(corners)));
+  const auto manifold = [&](double tilt, double turn, double height) {
     const Pair p{
         Box{{1, 1, 0.5}},
-        Box{{0.5, 0.4, 0.2}},
+        shape,
         {},
         {{0.8, 0.3, 0.5 + height}, turn_about(Vec3(0, 0, 1), turn) * turn_about(Vec3(0, 1, 0), tilt)}};
     const ContactAnswer r = contact(p.placed_a(), p.placed_b());
@@ -111,6 +117,93 @@ TEST_CASE("nearly parallel faces and edges have a whole contact", "[narrow][mani
       by_edges += r.normal.z() != 1;
     }
   CHECK(by_edges > 10);
+}
+
+TEST_CASE("a contact of nearly parallel features has no point twice", "[narrow][manifold]") {
+  Rng rng(33);
+  constexpr double near = 1e-5;
+  int compared = 0;
+  for (const double angle : {1e-12, 1e-9, 1e-7, 1e-6, 1e-5, 1e-4})
+    for (int i = 0; i < 60; ++i) {
+      INFO("angle " << angle << ", " << i);
+      Pair p{Box{{1, 0.75, 0.5}}, i % 2 ? Shape(Box{{1, 0.75, 0.5}}) : Shape(Cylinder{0.75, 0.5}), {}, {}};
+      p.pose_b.rotation = turn_about(Vec3(rng.uniform(-1, 1), rng.uniform(-1, 1), 0), angle);
+      p.pose_b.translation = {rng.uniform(-1, 1), rng.uniform(-1, 1), 0.99};
+      const ContactAnswer r = contact(p.placed_a(), p.placed_b());
+      REQUIRE(r.overlap);
+      for (const ContactPoint& x : r.manifold)
+        for (const ContactPoint& y : r.manifold)
+          if (&x != &y) {
+            ++compared;
+            CHECK((x.position - y.position).norm() > near);
+          }
+    }
+  CHECK(compared > 1000);
+}
+
+TEST_CASE("a flat hull whose corners lie on the border of a face has a whole contact", "[narrow][manifold]") {
+  // From a campaign: the face's corner at (-0.875, -0.375, -1.125) lies between two of them.
+  const Pair p{Box{{1.125, 0.375, 1}},
+               make_hull({{-0.25, 0, -0.5}, {0.625, 0, -0.25}, {0.125, 0, 0.25}, {0.5, 0, 0.375}}),
+               {{0, 0, 0}, normalized(Quat{0, 1, 0, 1})},
+               {{-0.75, -0.5, -0.875}, normalized(Quat{0, 0, 1, 1})}};
+  const ContactAnswer r = contact(p.placed_a(), p.placed_b());
+  REQUIRE(r.overlap);
+  check_points(p, r);
+  CHECK(covered(p, r) == Approx(1).epsilon(1e-12));
+}
+
+TEST_CASE("a needle's tip keeps its place in a contact", "[narrow][manifold]") {
+  Rng rng(34);
+  for (int i = 0; i < 200; ++i) {
+    // The needle lies in the box, nearly level, its tip inside the face.
+    const Pair p{RoundedBox{{1, 0.75, 0.8}, 0.25},
+                 Cone{rng.uniform(1e-4, 1e-3), 0.8},
+                 {},
+                 {{rng.uniform(-0.5, 0.5), 0.9, rng.uniform(-0.9, -0.3)},
+                  turn_about(Vec3(1, 0, 0), rng.uniform(-2e-4, 2e-4))}};
+    const ContactAnswer r = contact(p.placed_a(), p.placed_b());
+    REQUIRE(r.overlap);
+    check_points(p, r);
+  }
+}
+
+TEST_CASE("the deepest point is one of the contact's points where corners lie around it",
+          "[narrow][manifold]") {
+  // An octahedron and a cone on their tips, deep in the ground, in a large box and in one that ends beside
+  // them.
+  std::vector<Vec3> v;
+  for (int k = 0; k < 3; ++k)
+    for (const double s : {-1, 1}) v.push_back(s * Vec3::Unit(k));
+  const Quat tilt = turn_about(Vec3(1, 2, 0), 0.1), down = turn_about(Vec3(1, 0, 0), std::numbers::pi);
+  for (const Shape& ground : {Shape(HalfSpace{{0, 0, 1}, 0}), Shape(Box{{9, 9, 2}}), Shape(Box{{0.5, 2, 2}})})
+    for (const auto& [shape, turn] :
+         {std::pair(Shape(make_hull(v)), tilt), std::pair(Shape(Cone{1, 1}), tilt * down)})
+      for (const double sunk : {0.1, 0.5, 1.1}) {
+        const double top = kind_of(ground) == ShapeKind::box ? 2 : 0;
+        const Pair p{ground, shape, {}, {{0.1, 0.05, top + 1 - sunk}, turn}};
+        const ContactAnswer r = contact(p.placed_a(), p.placed_b());
+        REQUIRE(r.overlap);
+        check_points(p, r);
+        if (r.normal.z() != 1) continue;
+        CHECK(std::ranges::any_of(
+            r.manifold, [&](const ContactPoint& x) { return x.depth >= r.depth - 1e-12 && x.feature != 0; }));
+      }
+}
+
+TEST_CASE("the points of a leaning disc are as many in every direction, the deepest among them",
+          "[narrow][manifold]") {
+  const Shape ground = HalfSpace{{0, 0, 1}, 0}, disc = Cylinder{1, 0.25};
+  for (double turn = 0; turn < 6.3; turn += 0.05) {
+    const Vec3 axis(std::cos(turn), std::sin(turn), 0);
+    const Pair p{ground, disc, {}, {{0, 0, 0.2}, turn_about(axis, 0.01)}};
+    const ContactAnswer r = contact(p.placed_a(), p.placed_b());
+    REQUIRE(r.overlap);
+    CHECK(r.manifold.size() == convex::rim_corners);
+    check_points(p, r);
+    CHECK(std::ranges::count_if(
+              r.manifold, [&](const ContactPoint& x) { return std::abs(x.depth - r.depth) < 1e-14; }) == 1);
+  }
 }
 
 TEST_CASE("nearly parallel capsules touch along a line", "[narrow][manifold]") {

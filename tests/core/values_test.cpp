@@ -1,6 +1,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 
 #include "core/base/exact_text.h"
 #include "core/base/hash.h"
@@ -109,10 +110,39 @@ TEST_CASE("hulls: dimension is exact, faces are closed, outward, and bound every
   CHECK(solid == 300);
 }
 
-TEST_CASE("a box's eight corners have twelve triangles, coplanar ones included", "[values][hull]") {
+TEST_CASE("a box's eight corners have twelve triangles, coplanar ones included, and twelve edges",
+          "[values][hull]") {
   std::vector<Vec3> v;
   for (int i = 0; i < 8; ++i) v.push_back({i & 1 ? 1.0 : -1.0, i & 2 ? 2.0 : -2.0, i & 4 ? 3.0 : -3.0});
-  CHECK(make_hull(v).faces.size() == 12);
+  const Hull h = make_hull(v);
+  CHECK(h.faces.size() == 12);
+  CHECK(h.edges.size() == 12);
+  for (const auto& [i, k] : h.edges) CHECK(((i ^ k) == 1 || (i ^ k) == 2 || (i ^ k) == 4));
+}
+
+TEST_CASE("edges of a hull: those of its faces, and of a flat one its outline", "[values][hull]") {
+  Rng rng(6);
+  for (int n = 0; n < 100; ++n) {
+    std::vector<Vec3> v;
+    for (std::size_t i = 0, count = 4 + rng.below(40); i < count; ++i) v.push_back(rng.unit_vector() * 2);
+    const Hull h = make_hull(v);
+    CHECK(2 * h.edges.size() == 3 * h.faces.size());
+    std::set<std::pair<int, int>> sides;
+    for (const auto& f : h.faces)
+      for (std::size_t k = 0; k < 3; ++k) sides.insert({f[k], f[(k + 1) % 3]});
+    for (const auto& [i, k] : h.edges) CHECK((sides.contains({i, k}) && sides.contains({k, i})));
+  }
+  const auto sorted = [](const std::vector<Vec3>& v) {
+    std::set<std::pair<int, int>> edges;
+    for (const auto& [i, k] : make_hull(v).edges) edges.insert({std::min(i, k), std::max(i, k)});
+    return edges;
+  };
+  using Edges = std::set<std::pair<int, int>>;
+  // A square that leans, its middle, the middle of a side and a corner twice.
+  CHECK(sorted({{0, 0, 0}, {1, 1, 1}, {2, 0, 2}, {2, 2, 2}, {0, 2, 0}, {1, 0, 1}, {2, 2, 2}}) ==
+        Edges{{0, 2}, {2, 3}, {3, 4}, {0, 4}});
+  CHECK(sorted({{0, 0, 0}, {0, 0, 2}, {0, 0, 1}}) == Edges{{0, 1}});
+  CHECK(sorted({{1, 2, 3}, {1, 2, 3}}).empty());
 }
 
 TEST_CASE("a bad scene is refused with the place of the fault", "[values][scene]") {

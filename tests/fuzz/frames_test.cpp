@@ -1,6 +1,7 @@
 // Motions in frames: the bound of a motion, what counts as flicker, lying engines, and the core.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <set>
 
@@ -98,26 +99,27 @@ std::size_t same_points(const Scene& before, const Scene& after, const Query& q,
   return n;
 }
 
-// A cube with half-extents 1 in the ground, and the points that an engine states of the contact, each as deep
-// as the whole.
-struct SunkCube {
+// A body in the ground, by default a cube with half-extents 1, and the points that an engine states of the
+// contact, each as deep as the whole.
+struct Sunk {
   Pose pose;
   double depth = 0;
   std::vector<Vec3> points;
+  Shape shape = Box{Vec3::Ones()};
 };
 
-std::ptrdiff_t flickers_of_count(const SunkCube& before, const SunkCube& after) {
+std::ptrdiff_t flickers_of(Flicker kind, const Sunk& before, const Sunk& after) {
   Scene scene;
-  scene.shapes = {HalfSpace{Vec3::UnitZ(), 0}, Box{Vec3::Ones()}};
+  scene.shapes = {HalfSpace{Vec3::UnitZ(), 0}, before.shape};
   scene.bodies.resize(2);
   scene.bodies[1].shape = 1;
-  const auto answer = [](const SunkCube& cube) {
+  const auto answer = [](const Sunk& body) {
     Observation o;
     o.outcome = Outcome::answered;
     o.overlap = true;
     o.normal = Vec3::UnitZ();
-    o.depth = cube.depth;
-    for (const Vec3& p : cube.points) o.manifold.push_back({p, cube.depth});
+    o.depth = body.depth;
+    for (const Vec3& p : body.points) o.manifold.push_back({p, body.depth});
     return o;
   };
   const Observation stated[2] = {answer(before), answer(after)};
@@ -128,7 +130,7 @@ std::ptrdiff_t flickers_of_count(const SunkCube& before, const SunkCube& after) 
   const fuzz::FrameChange change =
       fuzz::change_between({was, stated[0]}, {is, stated[1]}, {Question::contact, 0, 1},
                            EngineCard{"test", "", "", "", 0x1p-53, 64, ""}, 1);
-  return std::ranges::count(change.flickers, Flicker::count, &FlickerReport::flicker);
+  return std::ranges::count(change.flickers, kind, &FlickerReport::flicker);
 }
 
 }  // namespace
@@ -226,13 +228,13 @@ TEST_CASE("a jump of the normal is true, tied or needless by what both normals n
 TEST_CASE("a point may come or go at the surface, but not below it", "[frames]") {
   // A cube sinks into the ground from one depth to another; so many of its corners are stated as points.
   const auto sunk = [](double depth, std::size_t n) {
-    SunkCube cube{{Vec3(0, 0, 1 - depth), {}}, depth, {}};
+    Sunk cube{{Vec3(0, 0, 1 - depth), {}}, depth, {}};
     for (std::size_t i = 0; i < n; ++i) cube.points.push_back(Vec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, 0));
     return cube;
   };
   const auto counts = [&](double depth_before, double depth_after, std::size_t n_before,
                           std::size_t n_after) {
-    return flickers_of_count(sunk(depth_before, n_before), sunk(depth_after, n_after));
+    return flickers_of(Flicker::count, sunk(depth_before, n_before), sunk(depth_after, n_after));
   };
   constexpr double step = 0x1p-10;
   CHECK(counts(0, step, 2, 4) == 0);  // two corners were above the ground and are now below it
@@ -255,13 +257,13 @@ TEST_CASE("points may go with corners that rise above a threshold, but not come 
     constexpr double depth = 0.01;
     const double angle = std::asin(height / 2);
     const Quat turn{0, std::sin(angle / 2), 0, std::cos(angle / 2)};  // x sinks
-    SunkCube cube{{Vec3(0, 0, std::sin(angle) + std::cos(angle) - depth), turn}, depth, {}};
+    Sunk cube{{Vec3(0, 0, std::sin(angle) + std::cos(angle) - depth), turn}, depth, {}};
     for (std::size_t i = 0; i < n; ++i) cube.points.push_back(Vec3(i & 2 ? -1 : 1, i & 1 ? 1 : -1, 0));
     return cube;
   };
   const auto counts = [&](double height_before, double height_after, std::size_t n_before,
                           std::size_t n_after) {
-    return flickers_of_count(rocked(height_before, n_before), rocked(height_after, n_after));
+    return flickers_of(Flicker::count, rocked(height_before, n_before), rocked(height_after, n_after));
   };
   constexpr double low = 5.0e-4, high = 5.2e-4;
   CHECK(counts(low, high, 4, 2) == 0);
@@ -270,6 +272,43 @@ TEST_CASE("points may go with corners that rise above a threshold, but not come 
   CHECK(counts(high, low, 4, 2) == 1);
   CHECK(counts(low, low, 2, 4) == 1);
   CHECK(counts(low, high, 4, 4) == 0);
+}
+
+TEST_CASE("a point may move inside the hull of the others, but not be left out of it", "[frames]") {
+  constexpr double depth = 0x1p-6;
+  const auto cube = [](std::vector<Vec3> points) {
+    return Sunk{{Vec3(0, 0, 1 - depth), {}}, depth, std::move(points)};
+  };
+  const Vec3 a(-1, -1, 0), b(1, -1, 0), c(1, 1, 0), d(-1, 1, 0), inside(0.5, 0.25, 0), other(-0.5, 0, 0);
+  const auto moved = [&](const Sunk& before, const Sunk& after) {
+    return flickers_of(Flicker::points, before, after);
+  };
+  CHECK(moved(cube({a, b, c, d, inside}), cube({a, b, c, d, other})) == 0);
+  CHECK(moved(cube({a, b, c, inside}), cube({a, b, d, inside})) == 1);
+  CHECK(moved(cube({a, b, c, d}), cube({a, b, c, inside})) == 1);
+  CHECK(moved(cube({inside}), cube({other})) == 1);
+  CHECK(moved(cube({a, b}), cube({a, inside})) == 1);
+}
+
+TEST_CASE("the points of a rim may be any, as long as they span it", "[frames]") {
+  constexpr double depth = 0x1p-6;
+  const auto disc = [](int n, double turn) {
+    Sunk s{{Vec3(0, 0, 1 - depth), {}}, depth, {}, Cylinder{1, 1}};
+    for (int k = 0; k < n; ++k) {
+      const double angle = turn + 2 * std::numbers::pi * k / n;
+      s.points.emplace_back(std::cos(angle), std::sin(angle), 0);
+    }
+    return s;
+  };
+  const auto flickers = [](const Sunk& before, const Sunk& after) {
+    return flickers_of(Flicker::count, before, after) + flickers_of(Flicker::points, before, after);
+  };
+  CHECK(flickers(disc(24, 0), disc(24, 0.1)) == 0);
+  CHECK(flickers(disc(24, 0), disc(23, 0)) == 0);
+  CHECK(flickers(disc(4, 0), disc(4, 0.5)) == 1);
+  CHECK(flickers(disc(4, 0), disc(3, 0)) == 1);
+  CHECK(flickers(disc(24, 0), disc(12, 0)) == 1);
+  CHECK(flickers(disc(1, 0), disc(1, 3)) == 1);
 }
 
 TEST_CASE("engines that lie about motions are found, each by what it does", "[frames][mutants]") {

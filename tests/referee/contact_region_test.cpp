@@ -186,3 +186,70 @@ TEST_CASE("heights of corners below a support plane", "[referee][region]") {
   are(heights(Sphere{1}, Quat{}, down), {0});
   CHECK(heights(HalfSpace{{0, 0, 1}, 0}, Quat{}, down).empty());
 }
+
+TEST_CASE("corners beyond a face: of the body, on the face's border, and at the face's corners",
+          "[referee][region]") {
+  const Shape table = Box{{1, 1, 1}}, box = Box{{0.5, 0.5, 0.5}};
+  const Vec3 up(0, 0, 1);
+  const auto corners = [&](const Shape& a, const Shape& b, const Pose& at_b) {
+    return corners_beyond_face({&a, Pose{}}, {&b, at_b}, up, 1e-7);
+  };
+  const auto are = [](const std::optional<std::vector<Vec3>>& is, const std::vector<Vec3>& expected) {
+    REQUIRE(is.has_value());
+    CHECK(is->size() == expected.size());
+    for (const Vec3& e : expected)
+      CHECK(std::any_of(is->begin(), is->end(), [&](const Vec3& p) { return (p - e).norm() < 1e-12; }));
+  };
+  // Sunk by a quarter, half-way to the plane at z = 1: all inside, across a side, around a corner.
+  const double z = 0.875;
+  are(corners(table, box, {{0, 0, 1.25}, {}}),
+      {{-0.5, -0.5, z}, {0.5, -0.5, z}, {0.5, 0.5, z}, {-0.5, 0.5, z}});
+  are(corners(table, box, {{0.75, 0, 1.25}, {}}),
+      {{0.25, -0.5, z}, {1, -0.5, z}, {1, 0.5, z}, {0.25, 0.5, z}});
+  are(corners(table, box, {{0.75, 0.75, 1.25}, {}}),
+      {{0.25, 0.25, z}, {1, 0.25, z}, {1, 1, z}, {0.25, 1, z}});
+  are(corners(table, box, {{0, 0, 1.75}, {}}), {});
+  // An edge that hangs over a side: at the side it is as deep as its slope says.
+  const Shape pole = Capsule{0.25, 1};
+  const Quat lean = about_y(right_angle - 0.25);
+  const double s = std::sin(0.25), c = std::cos(0.25);  // the pole's axis is (c, 0, s)
+  const double lower_end = 1.2 - s, at_side = lower_end + s / c * (1 - (1 - c));
+  are(corners(table, pole, {{1, 0, 1.2}, lean}),
+      {{1 - c, 0, (lower_end - 0.25 + 1) / 2}, {1, 0, (at_side - 0.25 + 1) / 2}});
+  // A face with a round border is a polygon.
+  const Shape drum = Cylinder{1, 1}, plate = Box{{3, 3, 0.5}};
+  const auto below_plate = corners(drum, plate, {{0, 0, 1.25}, {}});
+  REQUIRE(below_plate.has_value());
+  CHECK(below_plate->size() == rim_corners);
+  // A box that stands on an edge, in the table as a whole: its upper edge is above the lower one.
+  const Quat on_edge{std::sin(right_angle / 4), 0, 0, std::cos(right_angle / 4)};
+  const double w = std::sqrt(0.5);
+  are(corners(table, box, {{0, 0, 0}, on_edge}), {{-0.5, 0, (1 - w) / 2},
+                                                  {0.5, 0, (1 - w) / 2},
+                                                  {-0.5, w, 0.5},
+                                                  {0.5, w, 0.5},
+                                                  {-0.5, -w, 0.5},
+                                                  {0.5, -w, 0.5}});
+  // A leaning drum over a side: its lowest point, and the line up from there.
+  const Quat leaning = about_y(right_angle - 0.25);
+  const double low = 1.9 - c - s, over_side = low + s / c * (1 - (1 - c + s));
+  are(corners(table, drum, {{1, 0, 1.9}, leaning}),
+      {{1 - c + s, 0, (low + 1) / 2}, {1, 0, (over_side + 1) / 2}});
+  const Shape ground = HalfSpace{{0, 0, 1}, 0};
+  CHECK_FALSE(corners(ground, box, {{0, 0, 0.25}, {}}).has_value());
+  CHECK_FALSE(corners_beyond_face({&table, Pose{}}, {&box, Pose{{0, 0, 1.25}, {}}}, {0.1, 0, 1}, 1e-7));
+}
+
+TEST_CASE("distance from what points span", "[referee][region]") {
+  const std::vector<Vec3> square = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0.5}, {0, 1, 0}};
+  const Vec3 up(0, 0, 2);
+  const auto distance = [&](const Vec3& p) { return distance_from_span(p, square, up); };
+  CHECK(distance({0.5, 0.25, 0.25}) == Approx(0).margin(1e-15));
+  CHECK(distance({0.5, 0.25, 0.75}) == Approx(0.25));
+  CHECK(distance({0.5, 0.25, -0.5}) == Approx(0.5));
+  CHECK(distance({0.5, -2, 0}) == Approx(2));
+  CHECK(distance({4, 5, 0.5}) == Approx(5));
+  CHECK(distance({4, 1, 4.5}) == Approx(5));
+  CHECK(distance_from_span({1, 0, 1}, {{1, 0, 0}}, up) == Approx(1));
+  CHECK(distance_from_span({1, 2, 0}, {{0, 0, 0}, {3, 0, 0}}, up) == Approx(2));
+}

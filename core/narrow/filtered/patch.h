@@ -13,6 +13,7 @@
 // on each other.
 #pragma once
 
+#include "core/narrow/filtered/beyond_face.h"
 #include "core/narrow/filtered/nearly_parallel.h"
 #include "core/narrow/filtered/query.h"
 #include "core/narrow/outline.h"
@@ -58,14 +59,22 @@ class FeatureCorners {
     at_.tolerance = tolerance;
   }
 
-  void collect() {
+  /// Their outline in convex order; the others into `inside`, if that is not null.
+  void collect(Corners<R>* inside = nullptr) {
     const bool ordered = on_core(c_, [&](const auto& core) { return core.face_corners(at_, *this); });
     if (ordered && out_.size >= 4) {
       if (outline::turn(out_[0], out_[1], out_[2]) < 0) std::reverse(out_.begin(), out_.end());
       return;
     }
     if (out_.size == 0 && !out_.overflow) add_certain(support_, 0);
+    if (inside && out_.size > 3) *inside = out_;
     outline::convex_order(out_, at_.tolerance);
+    if (!inside) return;
+    const auto is_drawn = [&](const Corner<R>& c) {
+      return std::ranges::any_of(out_, [&](const Corner<R>& o) { return o.id == c.id; });
+    };
+    inside->size =
+        static_cast<int>(std::remove_if(inside->begin(), inside->end(), is_drawn) - inside->begin());
   }
 
   void add(const V3<R>& p, std::uint32_t id) {
@@ -85,7 +94,8 @@ class FeatureCorners {
 
   /// Whether these corners, and all that edges from them reach within the limit, lie inside `window`.
   bool stay_inside(const Corners<R>& window) const {
-    const R reach = on_core(c_, [&](const auto& core) { return core.edge_reach(at_); }) + at_.tolerance;
+    const R along = on_core(c_, [&](const auto& core) { return core.edge_reach(at_); });
+    const R reach = std::min<R>(along, 2 * c_.reach) + at_.tolerance;
     for (int i = 0; i < window.size; ++i) {
       const Corner<R>&w0 = window[i], &w1 = window[(i + 1) % window.size];
       const R ex = w1.x - w0.x, ey = w1.y - w0.y, least = reach * reach * (ex * ex + ey * ey);
@@ -94,52 +104,29 @@ class FeatureCorners {
     }
     return true;
   }
-  /// Where edges from these corners leave the limit, and where they cross the boundary of `window`, a face of
-  /// the other body; empty if none crosses it that leaves the limit: then no more of the body is beyond the
-  /// face's plane there than what these corners span.
-  struct Followed {
-    Corners<R> ends, crossings;
-    int border = -1;       // an edge of the window that is crossed
-    bool borders = false;  // others are, too
-  };
-  void follow_edges(const Corners<R>& window, bool window_is_a, Followed& out) const {
-    Edges edges{*this, window, window_is_a, true, out, {}};
-    on_core(c_, [&](const auto& core) {
-      core.edges_within(at_, edges);
-      if (out.crossings.size == 0) return;
-      edges.leaving = false;
-      core.edges_within(at_, edges);
-    });
+  bool is_polytope() const {
+    return on_core(c_, [](const auto& core) { return core.is_polytope; });
+  }
+  /// f(part, leaves) for each edge from these corners; leaves: it goes on beyond the limit.
+  template <class F>
+  void for_each_edge(const F& f) const {
+    const Edges<F> edges{*this, f, {}};
+    on_core(c_, [&](const auto& core) { core.edges_within(at_, edges); });
   }
 
  private:
+  template <class F>
   struct Edges {
     const FeatureCorners& of;
-    const Corners<R>& window;
-    bool window_is_a, leaving;  // leaving: those that leave the limit, not the others
-    Followed& out;
-    Corner<R> begin;
+    const F& show;
+    mutable Corner<R> begin;
 
-    bool takes(R share) const { return (share < 1) == leaving; }
-    void from(const V3<R>& p, std::uint32_t id) { begin = of.flat(p, id); }
-    void to(const V3<R>& p, std::uint32_t id, R share) {
+    void from(const V3<R>& p, std::uint32_t id) const { begin = of.flat(p, id); }
+    void to(const V3<R>& p, std::uint32_t id, R share) const {
       const Corner<R> other = of.flat(p, id);
-      const auto at = [&](R t) {
-        return Corner<R>{begin.x + t * (other.x - begin.x), begin.y + t * (other.y - begin.y),
-                         begin.below + t * (other.below - begin.below), id, 0};
-      };
-      const Corner<R> end = at(share);
-      if (leaving) out.ends.add(end);
-      const auto c = outline::crossings_of(begin, end, window, of.at_.tolerance);
-      const std::uint32_t edge = outline::edge_id(begin.id, id);
-      for (const auto& [along, border] : {std::pair(c.enters, c.entrance), std::pair(c.leaves, c.exit)}) {
-        if (border < 0) continue;
-        Corner<R> crossing = at(along * share);
-        crossing.id = outline::crossing_id(edge, window, border, window_is_a);
-        out.crossings.add(crossing);
-        out.borders |= out.border >= 0 && out.border != border;
-        out.border = border;
-      }
+      const Corner<R> end{begin.x + share * (other.x - begin.x), begin.y + share * (other.y - begin.y),
+                          begin.below + share * (other.below - begin.below), id, 0};
+      show(EdgePart<R>{begin, end, outline::edge_id(begin.id, id)}, share < 1);
     }
   };
 
@@ -155,6 +142,44 @@ class FeatureCorners {
   convex::FaceQuery<R> at_;
   Corners<R>& out_;
 };
+
+template <class R, class F>
+void drop(Corners<R>& corners, const F& is_one) {
+  corners.size = static_cast<int>(std::remove_if(corners.begin(), corners.end(), is_one) - corners.begin());
+}
+
+/// What a round body has beyond the plane of a face, inside the window, as far as its corners and the edge
+/// through its support point represent it.
+template <class R>
+void clip_round(const FeatureCorners<R>& incident, Corners<R>& region, const Corners<R>& window,
+                bool window_is_a, R tolerance, R surface) {
+  Corners<R> ends, crossings;
+  incident.for_each_edge([&](const EdgePart<R>& e, bool leaves) {
+    if (leaves) ends.add(e.to);
+    const auto c = outline::crossings_of(e.from, e.to, window, tolerance);
+    for (const auto& [along, border] : {std::pair(c.enters, c.entrance), std::pair(c.leaves, c.exit)})
+      if (border >= 0)
+        crossings.add({e.from.x + along * (e.to.x - e.from.x), e.from.y + along * (e.to.y - e.from.y),
+                       e.from.below + along * (e.to.below - e.from.below),
+                       outline::crossing_id(e.id, window, border, window_is_a), 0});
+  });
+  if (crossings.size == 0) return outline::clip(region, window, tolerance, window_is_a);
+  const Corners<R> corners = region;
+  for (const Corner<R>& c : ends) region.add(c);
+  outline::convex_order(region, tolerance);
+  outline::clip(region, window, tolerance, window_is_a);
+  // The outline crosses the border along edges, or between them, where the body is less deep. It may lead
+  // around corners and over edges.
+  drop(region, [](const Corner<R>& c) { return (c.id & outline::crossing) != 0; });
+  for (Corner<R> c : corners) {
+    c.id |= window_is_a ? outline::of_b : outline::of_a;
+    const auto is_same = [&](const Corner<R>& r) { return r.id == c.id; };
+    if (outline::holds(window, c, tolerance) && std::none_of(region.begin(), region.end(), is_same))
+      region.add(c);
+  }
+  for (const Corner<R>& c : crossings) region.add(c);
+  drop(region, [&](const Corner<R>& c) { return c.below >= surface; });
+}
 
 /// The nearest points of round cores that a ball keeps apart are known across the normal to the root of their
 /// distance's error, in units of size. A support point that near is the foot itself, on the surface to
@@ -199,44 +224,54 @@ Patch<R> contact_patch(const ConvexBody<R>& a, const ConvexBody<R>* b, const Rel
   };
   const auto show_a = [&](R limit, Corners<R>& out) { of_a(limit, out).collect(); };
   const auto show_b = [&](R limit, Corners<R>& out) { of_b(limit, out).collect(); };
-  // The part of the other body beyond the plane of a face, as far as the face goes.
-  const auto clipped = [&](FeatureCorners<R> incident, const Corners<R>& window, bool window_is_a) {
-    incident.collect();
-    if (incident.stay_inside(window)) {
-      for (Corner<R>& c : region) c.id |= window_is_a ? outline::of_b : outline::of_a;
-      return;
-    }
-    typename FeatureCorners<R>::Followed edges;
-    incident.follow_edges(window, window_is_a, edges);
-    if (edges.crossings.size == 0) return outline::clip(region, window, tolerance, window_is_a);
-    const Corners<R> corners = region;
-    if (edges.borders) {  // around a corner of the window, perhaps
-      for (const Corner<R>& c : edges.ends) region.add(c);
-      outline::convex_order(region, tolerance);
-    }
-    outline::clip(region, window, tolerance, window_is_a);
-    // The outline crosses the border along edges, or between them, where the body is less deep. It may lead
-    // around corners and over edges.
-    const auto is_none = [](const Corner<R>& c) { return (c.id & outline::crossing) != 0; };
-    region.size = static_cast<int>(std::remove_if(region.begin(), region.end(), is_none) - region.begin());
+  // Collects the outline in `region`; the result: corners that are deeper than what it spans.
+  const auto collect = [&](FeatureCorners<R> incident) {
+    Corners<R> inside;
+    incident.collect(&inside);
+    drop(inside, [&](const Corner<R>& c) { return !(c.below < below_at(region, c.x, c.y) - tolerance); });
+    // A hull's graph gives them in another order.
+    std::sort(inside.begin(), inside.end(),
+              [](const Corner<R>& c, const Corner<R>& d) { return c.id < d.id; });
+    return inside;
+  };
+  const auto add_as = [&](const Corners<R>& corners, std::uint32_t side) {
     for (Corner<R> c : corners) {
-      c.id |= window_is_a ? outline::of_b : outline::of_a;
-      const auto is_same = [&](const Corner<R>& r) { return r.id == c.id; };
-      if (outline::holds(window, c, tolerance) && std::none_of(region.begin(), region.end(), is_same))
-        region.add(c);
+      c.id |= side;
+      region.add(c);
     }
-    for (const Corner<R>& c : edges.crossings) region.add(c);
-    // Without the ends, which are on the surface.
-    const R surface = std::max<R>(depth, 2 * tolerance) - tolerance;
-    const auto is_above = [&](const Corner<R>& c) { return c.below >= surface; };
-    region.size = static_cast<int>(std::remove_if(region.begin(), region.end(), is_above) - region.begin());
+  };
+  // Without what is on the surface.
+  const R surface = std::max<R>(depth, 2 * tolerance) - tolerance;
+  // The part of the other body beyond the plane of a face, as far as the face goes.
+  const auto clipped = [&](const FeatureCorners<R>& incident, const Corners<R>& window, bool window_is_a) {
+    const std::uint32_t side = window_is_a ? outline::of_b : outline::of_a;
+    Corners<R> deep = collect(incident);
+    const auto is_outside = [&](const Corner<R>& c) { return !outline::holds(window, c, tolerance); };
+    if (incident.stay_inside(window)) {
+      for (Corner<R>& c : region) c.id |= side;
+      return add_as(deep, side);
+    }
+    drop(deep, is_outside);
+    BeyondFace<R> beyond(window, window_is_a, surface, tolerance);
+    if (incident.is_polytope())
+      incident.for_each_edge([&](const EdgePart<R>& e, bool leaves) { beyond.add_edge(e, leaves); });
+    if (beyond.has_edges()) {
+      drop(region, is_outside);
+      for (Corner<R>& c : region) c.id |= side;
+      add_as(deep, side);
+      return beyond.show(region);
+    }
+    // A round body, or one corner.
+    clip_round(incident, region, window, window_is_a, tolerance, surface);
+    add_as(deep, side);
   };
   Patch<R> patch;
   show_a(tolerance, fa);
   bool by_a = true;
   if (!b) {
-    show_a(depth + tolerance, region);
+    const Corners<R> deep = collect(of_a(depth + tolerance, region));
     for (Corner<R>& c : region) c.id |= outline::of_a;
+    add_as(deep, outline::of_a);
     by_a = false;
   } else if (fa.size >= 3) {
     clipped(of_b(depth + tolerance, region), fa, true);
@@ -250,13 +285,13 @@ Patch<R> contact_patch(const ConvexBody<R>& a, const ConvexBody<R>* b, const Rel
     }
   }
   if (region.overflow || fa.overflow || fb.overflow) return patch;
-  // The number of the point; an earlier one if that is the same.
-  const auto add = [&](R x, R y, R below_a, R below_b, std::uint32_t id) {
+  // The number of the point; an earlier one if that is not farther away than `same`.
+  const auto add = [&](R x, R y, R below_a, R below_b, std::uint32_t id, R same) {
     const R height = a.radius + (gap + below_b - below_a) / 2;
     const V3<R> p = plane.origin + plane.x * x + plane.y * y + n * height;
     const R d = -gap - below_a - below_b;
     for (int k = 0; k < patch.size; ++k)
-      if ((patch.point[static_cast<std::size_t>(k)].p - p).squaredNorm() <= tolerance * tolerance) return k;
+      if ((patch.point[static_cast<std::size_t>(k)].p - p).squaredNorm() <= same * same) return k;
     patch.point[static_cast<std::size_t>(patch.size)] = {p, std::max<R>(0, d), id};
     return patch.size++;
   };
@@ -264,7 +299,7 @@ Patch<R> contact_patch(const ConvexBody<R>& a, const ConvexBody<R>* b, const Rel
   const int kept = std::min(region.size, Patch<R>::capacity);
   for (int i = 0; i < kept; ++i) {
     const Corner<R>& c = region[i * region.size / kept];
-    add(c.x, c.y, by_a ? R(0) : c.below, by_a ? c.below : R(0), c.id);
+    add(c.x, c.y, by_a ? R(0) : c.below, by_a ? c.below : R(0), c.id, tolerance);
   }
   // Without a region the deepest point alone; and corners that represent a rim may all be less deep than the
   // rim between them.
@@ -281,14 +316,17 @@ Patch<R> contact_patch(const ConvexBody<R>& a, const ConvexBody<R>* b, const Rel
   if (middle && std::all_of(patch.point.begin(), patch.point.begin() + patch.size, less_deep) &&
       patch.size < Patch<R>::capacity)
     patch.point[static_cast<std::size_t>(patch.size++)] = {middle_on_foot(), depth, 0};
-  const R near = std::min<R>(depth / 2, static_cast<R>(tolerance::manifold_region_factor) * size);
+  // Not of the distance between the bodies, with which it would change as they move.
+  const R own_size = a.reach + a.radius + (b ? b->reach + b->radius : 0);
+  const R near = std::min<R>(depth / 2, static_cast<R>(tolerance::manifold_region_factor) * own_size);
   const bool has_face = !b || fa.size >= 3 || fb.size >= 3;
   if (has_face || patch.size > 1 || near <= tolerance) return patch;
   Corners<R> near_a, near_b;
   show_a(near, near_a);
   show_b(near, near_b);
-  const R beside = static_cast<R>(tolerance::manifold_beside_factor) * size;
+  const R beside = static_cast<R>(tolerance::manifold_beside_factor) * own_size;
   const Spots<R> spots = nearly_parallel_spots(near_a, near_b, a.radius, b->radius, tolerance, beside);
+  const R same = static_cast<R>(tolerance::manifold_same_factor) * own_size;
   // The first point is the deepest. It stays if it is a corner of the region, or if none of them is as deep.
   bool keeps_first = true;
   bool is_corner = patch.size == 0;
@@ -296,7 +334,9 @@ Patch<R> contact_patch(const ConvexBody<R>& a, const ConvexBody<R>* b, const Rel
     const Spot<R>& s = spots.spot[static_cast<std::size_t>(i)];
     if (!(s.below_a + s.below_b < depth)) continue;
     keeps_first &= s.below_a + s.below_b > tolerance;
-    is_corner |= add(s.x, s.y, s.below_a, s.below_b, s.id) == 0;
+    if (add(s.x, s.y, s.below_a, s.below_b, s.id, same) > 0) continue;
+    is_corner = true;
+    if (patch.point[0].id == 0) patch.point[0].id = s.id;
   }
   if (!keeps_first && !is_corner && patch.size > 2) {
     patch.point[0] = patch.point[static_cast<std::size_t>(patch.size - 1)];

@@ -210,7 +210,117 @@ ContactRegion region_on_half_space(const Placed& other, const Vec3& out_of_other
                    origin);
 }
 
+/// A point of the plane through a side of a prism: along the side, and below the face.
+struct Deep {
+  double along, below;
+};
+
+// The lower border of the points' hull, as long as it does not bend by less than the slack.
+std::vector<Deep> deepest_of(std::vector<Deep> p, double slack) {
+  std::sort(p.begin(), p.end(), [](const Deep& a, const Deep& b) {
+    return a.along < b.along || (a.along == b.along && a.below < b.below);
+  });
+  std::vector<Deep> chain;
+  const auto is_corner = [&](const Deep& a, const Deep& b, const Deep& c) {
+    const double x = c.along - a.along, y = c.below - a.below;
+    return x * (b.below - a.below) - y * (b.along - a.along) > slack * std::hypot(x, y);
+  };
+  for (const Deep& q : p) {
+    while (chain.size() >= 2 && !is_corner(chain[chain.size() - 2], chain.back(), q)) chain.pop_back();
+    chain.push_back(q);
+  }
+  return chain;
+}
+
+// How deep the chain is within the slack of a place, if it is there.
+std::optional<double> depth_at(const std::vector<Deep>& chain, double along, double slack) {
+  std::optional<double> deepest;
+  for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
+    const Deep &a = chain[i], &b = chain[i + 1];
+    if (!(a.along - slack <= along && along <= b.along + slack)) continue;
+    const bool is_steep = b.along - a.along <= 2 * slack;
+    const double t = is_steep ? 0 : std::clamp((along - a.along) / (b.along - a.along), 0.0, 1.0);
+    const double below = is_steep ? std::max(a.below, b.below) : a.below + t * (b.below - a.below);
+    deepest = std::max(below, deepest.value_or(below));
+  }
+  return deepest;
+}
+
+/// A point of the other body: in the plane of a face, and how far below it.
+struct Sunk {
+  Point2 at;
+  double below;
+};
+
+// Where the plane through p and q, along the normal, cuts the chords between the points; and the points that
+// are as near to it as `near`.
+std::vector<Deep> cut(const std::vector<Sunk>& points, const Point2& p, const Point2& q, double near) {
+  const Point2 along = 1 / norm(q - p) * (q - p);
+  std::vector<Deep> r;
+  for (const Sunk& a : points) {
+    const double side_a = cross(along, a.at - p);
+    if (std::abs(side_a) <= near) r.push_back({dot(along, a.at - p), a.below});
+    if (!(side_a > 0)) continue;
+    for (const Sunk& b : points) {
+      const double side_b = cross(along, b.at - p);
+      if (!(side_b < 0)) continue;
+      const double t = side_a / (side_a - side_b);
+      r.push_back({dot(along, a.at - p) + t * dot(along, b.at - a.at), a.below + t * (b.below - a.below)});
+    }
+  }
+  return r;
+}
+
+// Whether the hull of the points is deeper there than the point.
+bool is_covered(const Sunk& p, const std::vector<Sunk>& points, double slack) {
+  const std::optional<double> below =
+      depth_at(deepest_of(cut(points, p.at, p.at + Point2{1, 0}, slack), slack), 0, slack);
+  return below && *below > p.below + slack;
+}
+
+std::vector<Sunk> corners_beyond(const Convex2& face, const std::vector<Sunk>& points, double slack) {
+  std::vector<Sunk> r;
+  const auto sides = half_planes(face, 0, 0);
+  for (const Sunk& p : points)
+    if (p.below > slack &&
+        std::all_of(sides.begin(), sides.end(),
+                    [&](const HalfPlane& h) { return dot(h.normal, p.at) <= h.offset; }) &&
+        !is_covered(p, points, slack))
+      r.push_back(p);
+  for (std::size_t i = 0; i < face.size(); ++i) {
+    const Point2 &p = face[i], &q = face[(i + 1) % face.size()];
+    const double length = norm(q - p);
+    const std::vector<Deep> chain = deepest_of(cut(points, p, q, 0), slack);
+    for (const Deep& d : chain)
+      if (d.along > slack && d.along < length - slack && d.below > slack)
+        r.push_back({p + d.along / length * (q - p), d.below});
+    if (const auto below = depth_at(chain, 0, slack); below && *below > slack) r.push_back({p, *below});
+  }
+  return r;
+}
+
 }  // namespace
+
+std::optional<std::vector<Vec3>> corners_beyond_face(const Placed& face, const Placed& body,
+                                                     const Vec3& face_normal, double slack) {
+  const auto is_convex = [](const Placed& p) { return !is<TriangleMesh>(p) && !is<HalfSpace>(p); };
+  if (has_solid(face, body) || !is_convex(face) || !is_convex(body)) return std::nullopt;
+  const Vec3 origin = translation_of(face);
+  const ProjectionPlane plane(face_normal);
+  const Feature f = feature_of(face, origin, face_normal, slack);
+  const Convex2 outline = simplified(projected(f.points, plane), slack);
+  if (outline.size() < 3) return std::nullopt;
+  std::vector<Sunk> points;
+  for (const Real3& x : extremes_of(body, origin, to_real(-face_normal), slack).points) {
+    const Real below = f.height - dot(plane.normal, x) + core_form(body).radius;
+    points.push_back({plane.project(x), static_cast<double>(below)});
+  }
+  std::vector<Vec3> r;
+  for (const Sunk& c : corners_beyond(outline, points, slack))
+    r.push_back(to_double(static_cast<Real>(c.at.x) * plane.x + static_cast<Real>(c.at.y) * plane.y +
+                          (f.height - static_cast<Real>(c.below) / 2) * plane.normal + to_real(origin)));
+  return r;
+}
 
 ContactRegion contact_region(const Placed& a, const Placed& b, const Vec3& normal_ab, double slack) {
   return contact_region(a, b, normal_ab, slack, slack);
@@ -330,6 +440,18 @@ double spanned_length(const std::vector<Vec3>& points, const Vec3& normal) {
   for (const Vec3& p : points) about.push_back(to_real(p) - to_real(points.front()));
   const auto [a, b] = farthest(projected(about, ProjectionPlane(normal)));
   return norm(b - a);
+}
+
+double distance_from_span(const Vec3& p, const std::vector<Vec3>& points, const Vec3& normal) {
+  const ProjectionPlane plane(normal);
+  std::vector<Real3> about;
+  Interval<double> heights{infinity, -infinity};
+  for (const Vec3& q : points) {
+    about.push_back(to_real(q) - to_real(p));
+    const double height = static_cast<double>(dot(plane.normal, about.back()));
+    heights = {std::min(heights.lo, height), std::max(heights.hi, height)};
+  }
+  return std::hypot(distance_from_origin(projected(about, plane)), std::max({0.0, heights.lo, -heights.hi}));
 }
 
 }  // namespace touchstone::referee

@@ -44,6 +44,15 @@ ContactRegion contact_region(const Placed& a, const Placed& b, const Vec3& norma
 ContactRegion contact_region(const Placed& a, const Placed& b, const Vec3& normal_ab, double slack_a,
                              double slack_b);
 
+/// The corners of what `body` has beyond the plane of the other body's face, within the prism over that face:
+/// corners of the body, places where its edges cross the prism's sides, and where the prism's edges leave the
+/// body; each more than `slack` deeper than the plane. Half-way to the plane, world frame. A round face is a
+/// polygon with rim_corners. Of rounded shapes the cores, as above; of a round side, the line through the
+/// support point. face_normal: out of `face`, finite, not zero; its face is what lies within slack of the
+/// support plane. nullopt: that is not a polygon, or one of the bodies is a mesh or a half-space.
+std::optional<std::vector<Vec3>> corners_beyond_face(const Placed& face, const Placed& body,
+                                                     const Vec3& face_normal, double slack);
+
 /// How far each corner of the body is below its support plane along the normal (finite, not zero): the slacks
 /// at which contact_region() takes it, to rounding. A rim's highest and lowest point; not of a half-space.
 std::vector<double> corner_heights(const Placed& body, const Vec3& normal);
@@ -63,6 +72,10 @@ std::optional<bool> holds_centroid(const ContactRegion& region, const std::vecto
 double spanned_area(const std::vector<Vec3>& points, const Vec3& normal);
 /// Largest distance between two of the points projected along the normal.
 double spanned_length(const std::vector<Vec3>& points, const Vec3& normal);
+
+/// How far `p` is from the hull of the points across the normal (their projections along it; not empty), and
+/// along it from the heights that they have: the root of the sum of both squares.
+double distance_from_span(const Vec3& p, const std::vector<Vec3>& points, const Vec3& normal);
 
 // Where a mesh is a plane as far as a body reaches through it, so that the surface has a least depth and a
 // normal (truth.md §2).

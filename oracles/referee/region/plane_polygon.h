@@ -90,6 +90,19 @@ inline std::vector<HalfPlane> half_planes(const Convex2& p, double along, double
   return r;
 }
 
+/// 0 inside a polygon.
+inline double distance_from_origin(const Convex2& p) {
+  double least = norm(p.front());
+  bool inside = p.size() >= 3;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const Point2 &a = p[i], d = p[(i + 1) % p.size()] - a;
+    inside = inside && cross(a, d) >= 0;
+    const double square = dot(d, d), t = square > 0 ? std::clamp(-dot(a, d) / square, 0.0, 1.0) : 0;
+    least = std::min(least, norm(a + t * d));
+  }
+  return inside ? 0 : least;
+}
+
 /// Clips by one half-plane (Sutherland and Hodgman 1974).
 inline Convex2 clipped(const Convex2& p, const HalfPlane& h) {
   Convex2 r;
