@@ -610,8 +610,8 @@ namespace {
 Run with_writer(const Workspace& w, const std::string& pipe, const std::string& arguments) {
   fs::remove(w.dir / pipe);
   REQUIRE(mkfifo((w.dir / pipe).c_str(), 0600) == 0);
-  const Run r = w.run("(: > " + pipe + ") & " TS_BINARY_DIR "/bin/touchstone " + arguments +
-                      "; code=$?; : <> " + pipe + "; wait; exit $code");
+  const Run r = w.run("(: > " + pipe + ") & writer=$!; " TS_BINARY_DIR "/bin/touchstone " + arguments +
+                      "; code=$?; kill $writer 2>/dev/null; wait; exit $code");
   fs::remove(w.dir / pipe);
   return r;
 }
