@@ -1,12 +1,11 @@
 // Contact manifold in double or float, in fixed storage. Reference: the face (three points or more) of one
-// body that supports it along the normal. Incident: the corners of the other body beyond the reference's
-// plane, in convex order, clipped against the reference (core/narrow/outline.h); and where an edge leaves the
-// reference's border before its plane, that place, so that no deep point goes when a corner beyond the border
-// passes the plane. Each point keeps its own depth. Chords of the incident body lie inside it, so every point
-// lies within its depth of both bodies, halfway between the incident body and the plane. A face tilted by a
-// few ulp therefore stays complete and does not flicker. Without a face: overlap or crossing of two edges, or
-// the deepest vertex; and where faces or edges are parallel up to a small angle, what they have in common
-// (nearly_parallel.h).
+// body that supports it along the normal. Incident: what the other body has beyond the reference's plane and
+// within its border; exactly of a polytope (beyond_face.h), of a round body by its outline, clipped against
+// the reference (core/narrow/outline.h). Each point keeps its own depth. Chords of the incident body lie
+// inside it, so every point lies within its depth of both bodies, halfway between the incident body and the
+// plane. A face tilted by a few ulp therefore stays complete and does not flicker. Without a face: overlap or
+// crossing of two edges, or the deepest vertex; and where faces or edges are parallel up to a small angle,
+// what they have in common (nearly_parallel.h).
 //
 // Ids name features: a corner of A, a corner of B, or an edge of A that crosses an edge of B. They do not
 // depend on which body is the reference or where its outline starts; both change with an ulp when faces lie
@@ -110,7 +109,7 @@ class FeatureCorners {
   /// f(part, leaves) for each edge from these corners; leaves: it goes on beyond the limit.
   template <class F>
   void for_each_edge(const F& f) const {
-    const Edges<F> edges{*this, f, {}};
+    Edges<F> edges{*this, f, {}};
     on_core(c_, [&](const auto& core) { core.edges_within(at_, edges); });
   }
 
@@ -119,10 +118,10 @@ class FeatureCorners {
   struct Edges {
     const FeatureCorners& of;
     const F& show;
-    mutable Corner<R> begin;
+    Corner<R> begin;
 
-    void from(const V3<R>& p, std::uint32_t id) const { begin = of.flat(p, id); }
-    void to(const V3<R>& p, std::uint32_t id, R share) const {
+    void from(const V3<R>& p, std::uint32_t id) { begin = of.flat(p, id); }
+    void to(const V3<R>& p, std::uint32_t id, R share) {
       const Corner<R> other = of.flat(p, id);
       const Corner<R> end{begin.x + share * (other.x - begin.x), begin.y + share * (other.y - begin.y),
                           begin.below + share * (other.below - begin.below), id, 0};
