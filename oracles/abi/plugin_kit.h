@@ -202,6 +202,10 @@ inline void set_distance(ts_answer& out, double d) {
   out.has |= TS_HAS_DISTANCE;
   out.distance = d;
 }
+inline void set_lower_bound(ts_answer& out, double d) {
+  out.has |= TS_HAS_LOWER;
+  out.lower = d;
+}
 inline void set_points(ts_answer& out, const Vec3& a, const Vec3& b) {
   out.has |= TS_HAS_POINTS;
   store(a, out.point_a);

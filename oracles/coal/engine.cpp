@@ -1,12 +1,13 @@
-// Coal 3.0 as shipped: coal::distance with signed distance, coal::collide with security margin 0. What the
-// answers mean follows coal/collision_data.h:
+// Coal 3.0 as shipped: coal::distance with signed distance, coal::collide with security margin 0, or that of
+// the question. What the answers mean follows coal/collision_data.h:
 //
 // - DistanceResult::min_distance is the signed distance, and the nearest points achieve it.
 // - Contact::penetration_depth is that signed distance too (getDistanceToCollision subtracts the security
 //   margin from it), so the depth is its negative, and a contact with a positive one is of bodies that are
 //   apart.
 // - Contact::normal points from the first body to the second.
-// - CollisionRequest::security_margin is the distance below which bodies are considered in collision: 0.
+// - CollisionRequest::security_margin is the distance below which bodies are considered in collision.
+// - CollisionResult::distance_lower_bound is a lower bound of the distance of bodies that are not.
 // - A triangle mesh's contacts are those of its triangles, of which none is the depth of the whole: only its
 //   overlap and its distance from bodies apart are stated.
 #include <coal/collision.h>
@@ -43,6 +44,7 @@ double claimed(const coal::QueryRequest& request, double distance) {
 
 class Engine {
  public:
+  static constexpr ts_question later_questions[] = {TS_WITHIN, TS_BOUNDED_DISTANCE};
   static std::vector<kit::CardText> cards() {
     return {{"coal", "Coal", COAL_VERSION, settings, unit_roundoff, kit::oracle_tau_factor, source}};
   }
@@ -50,6 +52,7 @@ class Engine {
 
   void load(const ts_scene& scene, const ts_received& received) {
     unload();
+    margin_ = scene.margin;
     for (std::size_t i = 0; i < scene.shape_count; ++i) {
       geometries_.push_back(make_geometry(scene.shapes[i]));
       geometries_.back()->computeLocalAABB();
@@ -69,10 +72,12 @@ class Engine {
   }
 
   void ask(ts_question question, int a, int b, ts_answer& out, const ts_sink& sink) {
-    if (question > TS_CONTACT)
-      throw kit::Unsupported("Coal answers overlap, distance and contact of two bodies");
+    const bool of_margin = question == TS_WITHIN || question == TS_BOUNDED_DISTANCE;
+    if (question > TS_CONTACT && !of_margin)
+      throw kit::Unsupported("Coal answers overlap, distance, contact and margins of two bodies");
     const Body &one = bodies_[static_cast<std::size_t>(a)], &two = bodies_[static_cast<std::size_t>(b)];
     if (question == TS_DISTANCE) return ask_distance(one, two, out);
+    if (of_margin) return ask_near(question, one, two, out);
     ask_contact(one, two, out, question == TS_CONTACT ? &sink : nullptr);
   }
 
@@ -109,8 +114,24 @@ class Engine {
     sink->point(sink->ctx, position.data(), -signed_distance);
   }
 
+  void ask_near(ts_question question, const Body& a, const Body& b, ts_answer& out) const {
+    coal::CollisionRequest request;
+    request.security_margin = static_cast<coal::CoalScalar>(margin_);
+    request.enable_distance_lower_bound = question == TS_BOUNDED_DISTANCE;
+    coal::CollisionResult result;
+    coal::collide(a.geometry, a.transform, b.geometry, b.transform, request, result);
+    out.claimed_tolerance = claimed(request, margin_);
+    if (question == TS_WITHIN) return kit::set_overlap(out, result.isCollision());
+    if (!result.isCollision()) return kit::set_lower_bound(out, result.distance_lower_bound);
+    if (has_mesh(a, b)) throw kit::Unsupported("a mesh's contacts have the distances of single triangles");
+    const double distance = result.getContact(0).penetration_depth;
+    out.claimed_tolerance = claimed(request, distance);
+    kit::set_distance(out, distance);
+  }
+
   std::vector<Geometry> geometries_;
   std::vector<Body> bodies_;
+  double margin_ = 0;
 };
 
 }  // namespace

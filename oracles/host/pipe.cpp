@@ -245,7 +245,7 @@ void unload(ts_engine*) {}
 void ask(ts_engine* e, std::int32_t question, std::int32_t a, std::int32_t b, ts_answer* out,
          const ts_sink* sink) {
   Json j = {{"ask", std::string(question_names.at(static_cast<std::size_t>(question)))}};
-  if (question <= TS_TIME_OF_IMPACT) {
+  if (is_pair_question(static_cast<Question>(question))) {
     j["a"] = a;
     j["b"] = b;
   }

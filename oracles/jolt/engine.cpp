@@ -74,6 +74,7 @@ struct Body {
 
 class Engine {
  public:
+  static constexpr ts_question later_questions[] = {TS_WITHIN, TS_BOUNDED_DISTANCE};
   static std::vector<kit::CardText> cards() {
     std::vector<kit::CardText> all;
     for (const Setting& s : rows)
@@ -85,6 +86,7 @@ class Engine {
 
   void load(const ts_scene& scene, const ts_received& received) {
     unload();
+    margin_ = scene.margin;
     shapes_.reserve(scene.shape_count);
     for (std::size_t i = 0; i < scene.shape_count; ++i) {
       shapes_.push_back(make_shape(scene.shapes[i], setting_));
@@ -103,7 +105,8 @@ class Engine {
   }
 
   void ask(ts_question question, int a, int b, ts_answer& out, const ts_sink& sink) {
-    if (question > TS_TIME_OF_IMPACT) throw kit::Unsupported("pairs only");
+    if (question == TS_CANDIDATES || question == TS_SCENE_CONTACTS || question == TS_SWEPT_CANDIDATES)
+      throw kit::Unsupported("pairs only");
     const Body &one = bodies_[static_cast<std::size_t>(a)], &two = bodies_[static_cast<std::size_t>(b)];
     switch (question) {
       case TS_OVERLAP:
@@ -113,6 +116,9 @@ class Engine {
         return ask_distance(one, two, out);
       case TS_CONTACT:
         return ask_contact(one, two, out, sink);
+      case TS_WITHIN:
+      case TS_BOUNDED_DISTANCE:
+        return ask_near(question, one, two, out);
       default:
         return ask_time(one, two, out);
     }
@@ -141,14 +147,33 @@ class Engine {
   }
 
   // First without a search distance, which would spoil shallow depths.
-  void ask_distance(const Body& a, const Body& b, ts_answer& out) const {
-    auto hit = collide(a, b, 0);
-    if (!hit) hit = collide(a, b, reach(a, b));
-    if (!hit) throw kit::Unsupported("Jolt found no closest points");
-    const double distance = -double{hit->mPenetrationDepth};
+  std::optional<JPH::CollideShapeResult> closest(const Body& a, const Body& b, float farthest) const {
+    const auto hit = collide(a, b, 0);
+    return hit ? hit : collide(a, b, farthest);
+  }
+
+  void state_distance(const Body& a, const Body& b, const JPH::CollideShapeResult& hit,
+                      ts_answer& out) const {
+    const double distance = -double{hit.mPenetrationDepth};
     out.claimed_tolerance = claim(a, b, distance);
     kit::set_distance(out, distance);
-    kit::set_points(out, to_vec3(hit->mContactPointOn1), to_vec3(hit->mContactPointOn2));
+    kit::set_points(out, to_vec3(hit.mContactPointOn1), to_vec3(hit.mContactPointOn2));
+  }
+
+  void ask_distance(const Body& a, const Body& b, ts_answer& out) const {
+    const auto hit = closest(a, b, reach(a, b));
+    if (!hit) throw kit::Unsupported("Jolt found no closest points");
+    state_distance(a, b, *hit, out);
+  }
+
+  // CollideShape.h, mMaxSeparationDistance: shapes that are no farther apart are found.
+  void ask_near(ts_question question, const Body& a, const Body& b, ts_answer& out) const {
+    if (margin_ < 0) throw kit::Unsupported("a separation distance is not for depths");
+    const auto hit = closest(a, b, static_cast<float>(margin_));
+    out.claimed_tolerance = claim(a, b, margin_);
+    if (question == TS_WITHIN) return kit::set_overlap(out, hit.has_value());
+    if (hit) return state_distance(a, b, *hit, out);
+    kit::set_lower_bound(out, margin_);
   }
 
   void ask_contact(const Body& a, const Body& b, ts_answer& out, const ts_sink& sink) const {
@@ -183,6 +208,7 @@ class Engine {
   const Setting& setting_;
   std::vector<Held> shapes_;
   std::vector<Body> bodies_;
+  double margin_ = 0;
 };
 
 }  // namespace

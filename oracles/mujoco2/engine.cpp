@@ -36,6 +36,7 @@ Vec3 normal_of(const mjContact& c) { return kit::vec3(c.frame); }
 
 class Engine {
  public:
+  static constexpr ts_question later_questions[] = {TS_WITHIN};
   static std::vector<kit::CardText> cards() {
     kit::CardText card{
         "mujoco2",
@@ -55,6 +56,7 @@ class Engine {
   void load(const ts_scene& scene, const ts_received& received) {
     unload();
     world_.emplace(scene, received);
+    margin_ = scene.margin;
     filter_ = kit::PairFilter(scene);
   }
   void unload() {
@@ -64,12 +66,13 @@ class Engine {
 
   void ask(ts_question question, int a, int b, ts_answer& out, const ts_sink& sink) {
     if (question == TS_SCENE_CONTACTS) return ask_scene(out, sink);
-    if (question != TS_OVERLAP && question != TS_CONTACT)
+    if (question != TS_OVERLAP && question != TS_CONTACT && question != TS_WITHIN)
       throw kit::Unsupported("MuJoCo 2.2 has no such query");
     for (const int i : {a, b})
       if (!world_->has_geom(i)) kit::no_such_shape("MuJoCo");
     if (world_->type(a) == mjGEOM_PLANE && world_->type(b) == mjGEOM_PLANE)
       throw kit::Unsupported("MuJoCo has no code for two planes");
+    if (question == TS_WITHIN) return ask_within(a, b, out);
     ask_contact(a, b, out, question == TS_CONTACT ? &sink : nullptr);
   }
 
@@ -99,12 +102,25 @@ class Engine {
     return all.size() == 1 || !are_boxes || are_parallel(all);
   }
 
+  double claimed(int a, int b) const {
+    return goes_to_mpr(world_->type(a), world_->type(b)) ? mpr_tolerance : 0;
+  }
+
+  // XML reference, geom/margin: contacts are detected below this distance.
+  void ask_within(int a, int b, ts_answer& out) {
+    if (margin_ < 0) throw kit::Unsupported("a margin is not for depths");
+    world_->collide_within(a, margin_);
+    collided_ = false;
+    kit::set_overlap(out, !contacts_of(a, b).empty());
+    out.claimed_tolerance = claimed(a, b);
+  }
+
   /// With a sink, answers the whole contact; without one, only the overlap.
   void ask_contact(int a, int b, ts_answer& out, const ts_sink* sink) {
     if (!collided_ || world_->bodies() == 2) collide();  // a larger scene once for all its pairs
     const std::vector<const mjContact*> all = contacts_of(a, b);
     kit::set_overlap(out, !all.empty());
-    out.claimed_tolerance = goes_to_mpr(world_->type(a), world_->type(b)) ? mpr_tolerance : 0;
+    out.claimed_tolerance = claimed(a, b);
     if (all.empty() || !sink) return;
     const mjContact& deepest = **std::ranges::min_element(all, {}, &mjContact::dist);
     const Vec3 normal = normal_from(a, deepest);
@@ -131,13 +147,13 @@ class Engine {
             "the depth of two boxes is not known from a clipped face, and each contact needs one");
       const mjContact* const c = *std::ranges::min_element(all, {}, &mjContact::dist);
       sink.contact(sink.ctx, pair.first, pair.second, normal_from(pair.first, *c).eval().data(), -c->dist);
-      if (goes_to_mpr(world_->type(pair.first), world_->type(pair.second)))
-        out.claimed_tolerance = mpr_tolerance;
+      out.claimed_tolerance = std::max(out.claimed_tolerance, claimed(pair.first, pair.second));
     }
   }
 
   std::optional<World> world_;
   bool collided_ = false;
+  double margin_ = 0;
   kit::PairFilter filter_;
 };
 

@@ -170,4 +170,11 @@ void World::report(const ts_scene& scene, const ts_received& received) const {
 
 void World::collide() { mj_collision(model_.get(), data_.get()); }
 
+void World::collide_within(int body, double margin) {
+  mjtNum& of_geom = model_->geom_margin[geoms_[static_cast<std::size_t>(body)]];
+  of_geom = margin;
+  collide();
+  of_geom = 0;
+}
+
 }  // namespace touchstone::mujoco2

@@ -36,6 +36,8 @@ class World {
 
   /// Runs mj_collision at the scene's poses.
   void collide();
+  /// The same with a margin for the body's contacts. MuJoCo takes the larger one of two geoms' margins.
+  void collide_within(int body, double margin);
   const mjContact* begin() const { return data_->contact; }
   const mjContact* end() const { return data_->contact + data_->ncon; }
   /// The body that holds a geom.

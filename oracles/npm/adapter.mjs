@@ -110,6 +110,28 @@ export function manifold(points, is_whole) {
   return { normal, ...(is_whole && { depth }),
     points: points.filter(shares).map((p) => ({ position: p.position, depth: p.depth })) };
 }
+/**
+ * The questions about a margin, for an engine with a query that finds nothing farther away than its search distance:
+ * `closest(scene, a, b, reach)` is an answer to `distance`, without the distance if it finds nothing.
+ */
+export function margin_questions(closest) {
+  const found = ({ a, b }, scene) => {
+    const reach = scene.margin ?? 0;
+    if (reach < 0) throw new Unsupported("a search distance is not for depths");
+    return { reach, ...closest(scene, a, b, reach) };
+  };
+  return {
+    within(message, scene) {
+      const { distance, claimed_tolerance } = found(message, scene);
+      return { overlap: distance !== undefined, claimed_tolerance };
+    },
+    bounded_distance(message, scene) {
+      const { reach, ...answer } = found(message, scene);
+      return { ...answer, ...(answer.distance === undefined && { lower: reach }) };
+    },
+  };
+}
+
 /** Whether one of the shapes is a ball, which touches any other at one point. */
 export const has_ball = (scene, a, b) => [a, b].some((body) => scene.shapes[scene.bodies[body].shape].type === "sphere");
 

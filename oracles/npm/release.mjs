@@ -38,6 +38,8 @@ export const is_of_interface = (why) =>
 const still = [0, 0, 0], upright = [0, 0, 0, 1];
 const radius = 1, speed = 4, near = 1.5, far = 3; // of the centres, along x
 
+const margin = 0.5;
+
 function two_balls(distance) {
   const poses = [0, distance].map((x) => ({ translation: [x, 0, 0], rotation: upright }));
   return {
@@ -47,6 +49,7 @@ function two_balls(distance) {
     })),
     steps: [...poses.map((pose, body) => ({ op: "insert", body, pose })), { op: "query" }],
     ignored: [],
+    margin,
   };
 }
 
@@ -65,6 +68,9 @@ const trials = {
     [far, (r) => r.overlap === false]],
   time_of_impact: [[far, (r) => is(r.toi, (far - 2 * radius) / speed)], [near, (r) => r.toi === 0]],
   candidates: [[near, (r) => pairs_are(r, 1)]],
+  within: [[near, (r) => r.overlap === true], [far, (r) => r.overlap === false]],
+  bounded_distance: [[near, (r) => is(r.distance, near - 2 * radius)],
+    [far, (r) => is(r.distance ?? r.lower, far - 2 * radius) || is(r.lower, margin)]],
   scene_contacts: [[near, (r) => Array.isArray(r.contacts) && r.contacts.length === 1]],
 };
 

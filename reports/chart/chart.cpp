@@ -90,6 +90,9 @@ Chart measure_chart(const ChartScope& scope, std::uint64_t seed, std::span<const
   ChartRows rows;
   add_all(rows, narrow_chart_cases(seed, scope.per_cell, scope.meshes), engines, scope.rounds, "pairs",
           progress);
+  add_all(rows, margin_chart_cases(seed, scope.per_cell, scope.meshes), engines, scope.rounds, "margins",
+          progress);
+  add_all(rows, ray_chart_cases(seed, 4 * scope.per_motion), engines, scope.rounds, "rays", progress);
   add_all(rows, impact_chart_cases(seed, scope.per_motion), engines, scope.rounds, "motions", progress);
   for (std::uint64_t n : scope.crowds) {
     const ChartCase c = broad_chart_case(seed, n);

@@ -1,5 +1,7 @@
 #include "reports/chart/chart_cases.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "core/math/rng.h"
@@ -25,6 +27,13 @@ constexpr GapRange gap_ranges[] = {
     {"deep", [](Rng& rng) { return -rng.uniform(0.1, 1); }},
 };
 
+// Margins in units of the gap.
+struct MarginRange {
+  const char* name;
+  double least, most;
+};
+constexpr MarginRange margin_ranges[] = {{"nearer", 1.25, 4}, {"farther", 0.1, 0.8}};
+
 struct Scale {
   const char* name;
   double size, offset;
@@ -47,6 +56,14 @@ std::string pair_name(ShapeKind a, ShapeKind b) {
   return std::string(type_name(a)) + "-" + std::string(type_name(b));
 }
 
+ChartCase pair_case(std::uint64_t seed, std::size_t index, const char* question, const char* regime,
+                    const std::string& pair, const char* scale) {
+  ChartCase c{{}, regime, pair, scale, 2};
+  c.c.id = fmt::format("chart/{}{}/{}", question, seed, index);
+  c.c.family = "chart";
+  return c;
+}
+
 }  // namespace
 
 std::vector<ChartCase> narrow_chart_cases(std::uint64_t seed, int per_cell, bool meshes) {
@@ -60,13 +77,38 @@ std::vector<ChartCase> narrow_chart_cases(std::uint64_t seed, int per_cell, bool
           Scene s = random_pair(rng, a, b, scale.size, origin);
           const double gap = range.gap(rng);
           s = at_gap(rng, std::move(s), gap);
-          ChartCase c{{}, range.name, pair_name(a, b), scale.name, 2};
-          c.c.id = "chart/" + std::to_string(seed) + "/" + std::to_string(cases.size());
-          c.c.family = "chart";
+          ChartCase c = pair_case(seed, cases.size(), "", range.name, pair_name(a, b), scale.name);
           c.c.scene = std::move(s);
           c.c.queries = {{Question::overlap, 0, 1}, {Question::distance, 0, 1}, {Question::contact, 0, 1}};
           cases.push_back(std::move(c));
         }
+  return cases;
+}
+
+std::vector<ChartCase> margin_chart_cases(std::uint64_t seed, int per_cell, bool meshes) {
+  std::vector<ChartCase> cases;
+  for (const auto& [a, b] : kind_pairs(meshes))
+    for (const MarginRange& range : margin_ranges)
+      for (int i = 0; i < per_cell; ++i) {
+        Rng rng = Rng::stream(seed, cases.size());
+        const Scene s = random_pair(rng, a, b, 1, Vec3::Zero());
+        const double gap = rng.uniform(0.1, 1);
+        ChartCase c = pair_case(seed, cases.size(), "margin/", range.name, pair_name(a, b), "1");
+        c.c.scene = at_gap(rng, s, gap);
+        c.c.scene.margin = gap * mean_extent(c.c.scene) * rng.uniform(range.least, range.most);
+        c.c.queries = {{Question::within, 0, 1}, {Question::bounded_distance, 0, 1}};
+        cases.push_back(std::move(c));
+      }
+  return cases;
+}
+
+std::vector<ChartCase> ray_chart_cases(std::uint64_t seed, int count) {
+  std::vector<ChartCase> cases;
+  for (int i = 0; i < count; ++i) {
+    ChartCase c{make_case(seed, static_cast<std::uint64_t>(i), "rays"), "rays", "", "1", 2};
+    c.pair = type_name(c.c.scene.shape_of(0));
+    cases.push_back(std::move(c));
+  }
   return cases;
 }
 

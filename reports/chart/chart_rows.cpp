@@ -99,10 +99,10 @@ void ChartRows::add(const ChartSample& s) {
     groups.insert(
         groups.end(),
         {{none, none, none}, {none, none, s.scale}, {none, s.pair, none}, {s.regime, s.pair, none}});
-  // A motion has only one scale, so rows by scale would be duplicates.
+  // Rows by scale would be duplicates where there is only one.
   std::sort(groups.begin(), groups.end());
-  if (s.question == "time_of_impact" || s.bodies != 2)
-    std::erase_if(groups, [](const auto& g) { return !g[2].empty(); });
+  const bool has_scales = s.question == "overlap" || s.question == "distance" || s.question == "contact";
+  if (!has_scales) std::erase_if(groups, [](const auto& g) { return !g[2].empty(); });
   for (const auto& [regime, pair, scale] : groups) {
     Cell& c = cells_[{s.question, regime, scale, pair, crowd, s.engine}];
     ChartRow& r = c.counts;

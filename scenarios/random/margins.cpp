@@ -123,11 +123,44 @@ void margins(Rng& rng, Case& c) {
   ask_margin(c);
 }
 
-// Upright boxes and balls on a lattice of 1/8, and crowds of any shapes; margins of the same lattice.
+namespace {
+
+// Asks at the first places, and again after each of a few steps in which a body goes elsewhere, out or in.
+template <class Place>
+void move_some(Rng& rng, Scene& s, const Place& place) {
+  const std::size_t n = s.bodies.size();
+  for (std::size_t b = 0; b < n; ++b)
+    s.script.push_back({Step::Op::insert, static_cast<int>(b), std::nullopt});
+  s.script.push_back({Step::Op::query, -1, std::nullopt});
+  std::vector<bool> present(n, true);
+  const std::size_t count = 1 + rng.below(6);
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t b = rng.below(n);
+    const bool stays = !rng.chance(0.2);
+    const Pose pose{place(), s.bodies[b].pose.rotation};
+    const auto op = !present[b] ? Step::Op::insert : stays ? Step::Op::move : Step::Op::remove;
+    present[b] = op != Step::Op::remove;
+    s.script.push_back({op, static_cast<int>(b), present[b] ? std::optional(pose) : std::nullopt});
+    s.script.push_back({Step::Op::query, -1, std::nullopt});
+  }
+}
+
+}  // namespace
+
+// Upright boxes and balls on a lattice of 1/8, and crowds of any shapes; margins of the same lattice. In half
+// of the cases they move.
 void loose_crowd(Rng& rng, Case& c) {
   const std::size_t n = 2 + rng.below(9);
   const bool lattice = rng.chance(0.6);
   const double side = 2.5 * std::cbrt(static_cast<double>(n));
+  const auto place = [&] {
+    Vec3 p;
+    for (double& x : p) {
+      x = rng.uniform(-side / 2, side / 2);
+      if (lattice) x = std::round(8 * x) / 8;
+    }
+    return p;
+  };
   for (std::size_t i = 0; i < n; ++i) {
     Body b;
     b.shape = static_cast<int>(i);
@@ -139,15 +172,13 @@ void loose_crowd(Rng& rng, Case& c) {
     else
       c.scene.shapes.push_back(random_shape(rng, kind, 0.7));
     if (!lattice) b.pose.rotation = rng.rotation();
-    for (double& x : b.pose.translation) {
-      x = rng.uniform(-side / 2, side / 2);
-      if (lattice) x = std::round(8 * x) / 8;
-    }
+    b.pose.translation = place();
     b.is_static = rng.below(6) == 0;
     c.scene.bodies.push_back(std::move(b));
   }
   c.scene.margin = lattice ? static_cast<double>(rng.below(9)) / 8 : rng.uniform(0, 1.5);
   if (rng.below(8) == 0) c.scene.margin = ulps_away(c.scene.margin, 1);
+  if (rng.chance(0.5)) move_some(rng, c.scene, place);
   c.queries = {{Question::candidates_within, -1, -1}};
 }
 

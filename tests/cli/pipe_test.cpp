@@ -98,6 +98,43 @@ TEST_CASE("an engine that holds another shape is not blamed for its algorithm", 
   CHECK(blob.out.find("an unknown type of shape: blob") != std::string::npos);
 }
 
+TEST_CASE("questions about margins and rays name their bodies, and the scene its margin",
+          "[pipe][optional]") {
+  if (!has_command("python3")) return skip("python3 is not installed");
+  const Workspace w("pipe");
+  // Spheres; a ray along x that starts before the sphere.
+  w.write("balls.py", R"(import json, sys
+def say(x): print(json.dumps(x), flush=True)
+say({"touchstone_pipe": 1, "name": "balls", "library": "balls", "version": "1", "settings": "",
+  "unit_roundoff": 1.1e-16, "tau_factor": 64, "source": ""})
+for line in sys.stdin:
+  m = json.loads(line)
+  if "scene" in m:
+    scene = m["scene"]
+    continue
+  a, b = scene["bodies"][m["a"]], scene["bodies"][m["b"]]
+  gap = b["pose"]["translation"][0] - a["pose"]["translation"][0]
+  gap -= sum(scene["shapes"][x["shape"]]["radius"] for x in (a, b))
+  if m["ask"] == "within": say({"overlap": gap <= scene["margin"]})
+  elif m["ask"] == "bounded_distance": say({"lower": gap} if gap > scene["margin"] else {"distance": gap})
+  elif m["ask"] == "ray": say({"toi": -gap / b["motion"]["linear"][0], "normal": [1, 0, 0]})
+)");
+  w.write("three.json", R"({"touchstone_case": 1, "scene": {"touchstone_scene": 1, "margin": 0.5,
+  "shapes": [{"type": "sphere", "radius": 1}, {"type": "sphere", "radius": 0}],
+  "bodies": [{"shape": 0, "pose": {"translation": [9, 0, 0]}}, {"shape": 0},
+    {"shape": 0, "pose": {"translation": [2.25, 0, 0]}}, {"shape": 0, "pose": {"translation": [6, 0, 0]}},
+    {"shape": 1, "pose": {"translation": [5, 0, 0]}, "motion": {"linear": [-8, 0, 0]}}]},
+  "queries": [{"question": "within", "a": 1, "b": 2}, {"question": "within", "a": 1, "b": 3},
+    {"question": "bounded_distance", "a": 1, "b": 2}, {"question": "bounded_distance", "a": 1, "b": 3},
+    {"question": "ray", "a": 1, "b": 4}]})");
+  const Run told = w.touchstone("replay three.json --engines 'pipe:python3 balls.py' --subject balls");
+  INFO(told.out << told.err);
+  CHECK(told.code == 0);
+  for (const char* const answer :
+       {"right   within\n", "right   beyond\n", "right   0.25\n", "right   at least 4\n", "right   t = 0.5,"})
+    CHECK(told.out.find(answer) != std::string::npos);
+}
+
 TEST_CASE("a command is sent rounded boxes if its card lists them", "[pipe][optional]") {
   if (!has_command("python3")) return skip("python3 is not installed");
   const Workspace w("pipe");

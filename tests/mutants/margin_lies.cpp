@@ -56,6 +56,26 @@ Lie for_candidates(double (*other)(double)) {
 double ignored(double) { return 0; }
 double halved(double m) { return m / 2; }
 double nearly(double m) { return std::max(0.0, m - 1e-3); }
+double squared(double m) { return m * m; }
+
+// The pairs of another margin in the queries or of the bodies that `is_one` accepts.
+Lie some_candidates(bool (*is_one)(const Case&, std::size_t query, const BodyPair&)) {
+  return [is_one](const Case& c, const Query& q, Observation& o) {
+    if (!asks(q, Question::candidates_within) || o.outcome != Outcome::answered) return;
+    Scene s = c.scene;
+    s.margin = 0;
+    const auto touching = candidate_pairs_within(s, *broad::make_broad_phase("automatic"));
+    for (std::size_t k = 0; k < o.candidate_pairs.size(); ++k)
+      std::erase_if(o.candidate_pairs[k], [&](const BodyPair& p) {
+        return is_one(c, k, p) && !std::ranges::binary_search(touching.at(k), p);
+      });
+  };
+}
+bool later(const Case&, std::size_t query, const BodyPair&) { return query > 0; }
+bool of_balls(const Case& c, std::size_t, const BodyPair& p) {
+  return kind(c, p.first) == ShapeKind::sphere && kind(c, p.second) == ShapeKind::sphere;
+}
+
 void last_near_pair_lost(const Case&, const Query& q, Observation& o) {
   if (asks(q, Question::candidates_within) && !o.candidate_pairs.empty() && !o.candidate_pairs[0].empty())
     o.candidate_pairs[0].pop_back();
@@ -155,6 +175,10 @@ std::vector<Mutant> margin_lies() {
       {"near_pairs_no_margin", "missed", "loose", "the margin is ignored", for_candidates(ignored)},
       {"near_pairs_half", "missed", "loose", "half the margin in all", for_candidates(halved)},
       {"near_pairs_short", "missed", "loose", "0.001 less than the margin", for_candidates(nearly)},
+      {"near_pairs_squared", "missed", "loose", "the square of the margin", for_candidates(squared)},
+      {"near_pairs_first_query", "missed", "loose", "no margin after the first query",
+       some_candidates(later)},
+      {"near_pairs_spheres", "missed", "loose", "two spheres have no margin", some_candidates(of_balls)},
       {"near_pairs_last_lost", "missed", "loose", "the last pair is lost", last_near_pair_lost},
       {"near_pairs_stranger", "stale", "loose", "a pair names a body that does not exist", near_stranger},
       {"bound_of_centres", "bound_off", "margins", "the distance of the origins as a lower bound",

@@ -103,15 +103,15 @@ function transformed(p) {
   return t;
 }
 
-// `apart`: also find the closest points of separated shapes. Jolt inflates one shape by the search distance, and a
-// distance of 1e15 would leave no digits. The distance between the centres of mass suffices, since both shapes contain
-// theirs.
-function collide(scene, a, b, apart) {
+// Also finds the closest points of shapes that are apart by no more than `reach`. Jolt inflates one shape by it, and
+// 1e15 would leave no digits. The distance between the centres of mass suffices for any, since both shapes contain theirs.
+const any = (x, y) => reach_slack * Math.hypot(...x.map((c, k) => c - y[k]));
+function collide(scene, a, b, reach) {
   const settings = keep(new Jolt.CollideShapeSettings());
   settings.mCollisionTolerance = settings.mPenetrationTolerance = tolerance;
   const found = keep(new Jolt.CollideShapeClosestHitCollisionCollector());
   const [p, q] = [placed(scene, a), placed(scene, b)], [x, y] = [p, q].map((s) => list(s.mass_centre.GetTranslation()));
-  if (apart) settings.mMaxSeparationDistance = reach_slack * Math.hypot(...x.map((c, k) => c - y[k]));
+  settings.mMaxSeparationDistance = reach === any ? any(x, y) : reach;
   // In the result, shape 1 is the argument and shape 2 the transformed shape.
   transformed(q).CollideShape(p.shape, one, p.mass_centre, settings, origin, found, every_shape);
   return found.HadHit() ? found.mHit : null;
@@ -119,6 +119,13 @@ function collide(scene, a, b, apart) {
 
 const claim = (scene, a, b, depth = 0) =>
   tolerance * (1 + Math.abs(depth)) + claim_of(shape_of(scene, a)) + claim_of(shape_of(scene, b));
+// First without a search distance, which would spoil shallow depths.
+function closest(scene, a, b, reach) {
+  const hit = collide(scene, a, b, 0) || collide(scene, a, b, reach);
+  const found = hit && { distance: -hit.mPenetrationDepth, point_a: list(hit.mContactPointOn1), point_b: list(hit.mContactPointOn2) };
+  sweep();
+  return { ...found, claimed_tolerance: claim(scene, a, b, found?.distance ?? (reach === any ? 0 : reach)) };
+}
 const unit = (axis) => axis.map((x) => x / Math.hypot(...axis));
 
 class World {
@@ -179,23 +186,20 @@ const engine = {
     return { shapes: scene.shapes.map(kit.received_shape), bodies: held };
   },
   overlap({ a, b }, scene) {
-    return { overlap: collide(scene, a, b, false) !== null, claimed_tolerance: claim(scene, a, b) };
+    return { overlap: collide(scene, a, b, 0) !== null, claimed_tolerance: claim(scene, a, b) };
   },
   contact({ a, b }, scene) {
-    const hit = collide(scene, a, b, false), depth = hit ? hit.mPenetrationDepth : 0;
+    const hit = collide(scene, a, b, 0), depth = hit ? hit.mPenetrationDepth : 0;
     const answer = hit ? { overlap: true, normal: unit(list(hit.mPenetrationAxis)), depth } : { overlap: false };
     sweep();
     return { ...answer, claimed_tolerance: claim(scene, a, b, depth) };
   },
-  // First without a search distance, which would spoil shallow depths.
   distance({ a, b }, scene) {
-    const hit = collide(scene, a, b, false) || collide(scene, a, b, true);
-    if (!hit) throw new kit.Unsupported("Jolt found no closest points");
-    const d = -hit.mPenetrationDepth;
-    const points = { point_a: list(hit.mContactPointOn1), point_b: list(hit.mContactPointOn2) };
-    sweep();
-    return { distance: d, ...points, claimed_tolerance: claim(scene, a, b, d) };
+    const answer = closest(scene, a, b, any);
+    if (answer.distance === undefined) throw new kit.Unsupported("Jolt found no closest points");
+    return answer;
   },
+  ...kit.margin_questions(closest), // CollideShape.h, mMaxSeparationDistance
   time_of_impact({ a, b }, scene) {
     const translation = kit.relative_translation(scene.bodies[a], scene.bodies[b]);
     const [p, q] = [placed(scene, a), placed(scene, b)], settings = keep(new Jolt.ShapeCastSettings());

@@ -134,6 +134,16 @@ function answer_of(scene, found, a, b) {
 }
 const from_to = new mj.DoubleBuffer(6);
 
+function closest(scene, a, b, reach) {
+  if (how === "libccd" && (is_convex_pair(scene, a, b) || is_box_pair(scene, a, b)))
+    throw new kit.Unsupported("MuJoCo's documentation disclaims distances of its libccd pipeline");
+  const distance = mj.mj_geomDistance(model, data, a, b, reach, from_to), points = Array.from(from_to.GetView());
+  const claimed_tolerance = distance_claim(scene, a, b);
+  if (distance >= reach) return { claimed_tolerance };
+  if (points.every((x) => x === 0)) return { distance, claimed_tolerance }; // it has written none
+  return { distance, point_a: points.slice(0, 3), point_b: points.slice(3), claimed_tolerance };
+}
+
 const engine = {
   card: {
     name: how ? `mujoco-${how}` : "mujoco", library: "MuJoCo, WASM", version: kit.version(modules, "@mujoco/mujoco"),
@@ -167,14 +177,24 @@ const engine = {
     return found.length > 0 ? answer_of(scene, found, a, b) : { overlap: false, claimed_tolerance: contact_claim(scene, a, b) };
   },
   distance({ a, b }, scene) {
-    if (how === "libccd" && (is_convex_pair(scene, a, b) || is_box_pair(scene, a, b)))
-      throw new kit.Unsupported("MuJoCo's documentation disclaims distances of its libccd pipeline");
-    const distance = mj.mj_geomDistance(model, data, a, b, farthest, from_to), points = Array.from(from_to.GetView());
-    if (distance >= farthest) throw new kit.Unsupported(`MuJoCo finds no distance below ${farthest}`);
-    const answer = { distance, claimed_tolerance: distance_claim(scene, a, b) };
-    if (points.every((x) => x === 0)) return answer; // it has written none
-    return { ...answer, point_a: points.slice(0, 3), point_b: points.slice(3) };
+    const answer = closest(scene, a, b, farthest);
+    if (answer.distance === undefined) throw new kit.Unsupported(`MuJoCo finds no distance below ${farthest}`);
+    return answer;
   },
+  // XMLreference, body/geom/margin: contacts are detected below this distance. Of two geoms' margins one is 0, so that
+  // it does not matter how MuJoCo combines them.
+  within({ a, b }, scene) {
+    require_collider(scene, a, b);
+    if ((scene.margin ?? 0) < 0) throw new kit.Unsupported("a margin is not for depths");
+    const margins = model.geom_margin;
+    margins[a] = scene.margin ?? 0;
+    try {
+      return { overlap: contacts(a, b).length > 0, claimed_tolerance: contact_claim(scene, a, b) };
+    } finally {
+      margins[a] = 0;
+    }
+  },
+  bounded_distance: kit.margin_questions(closest).bounded_distance, // mujoco.h, mj_geomDistance, distmax
   scene_contacts(_, scene) {
     const drops = kit.filter_of(scene), pairs = new Map(), planes = [...scene.bodies.keys()].filter((k) =>
       shape_of(scene, k).type === "half_space");

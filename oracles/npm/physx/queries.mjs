@@ -43,6 +43,12 @@ function gjk_claim(scene, a, b, separation = 0) {
   return iteration_share * support_margin + core_share * Math.abs(separation + sum(radius_of))
     + degenerate_share * sum(core_size) + cooking_claim(scene, a, b);
 }
+function closest(scene, a, b, reach) {
+  const c = proximity(scene, a, b, reach);
+  if (!c) return { claimed_tolerance: gjk_claim(scene, a, b, reach) };
+  return { distance: c.separation, point_a: list(c.pointA), point_b: list(c.pointB),
+    claimed_tolerance: gjk_claim(scene, a, b, c.separation) };
+}
 export const supports = {
   settings: "PxGjkQuery::overlap, sweep and proximityInfo, toleranceLength 1",
   overlap({ a, b }, scene) {
@@ -56,11 +62,10 @@ export const supports = {
     return { overlap: true, normal: list(c.separatingAxis).map((x) => -x), depth: -c.separation, claimed_tolerance };
   },
   distance({ a, b }, scene) {
-    const c = proximity(scene, a, b, unlimited);
-    if (!c) return { outcome: "not_converged", detail: "proximityInfo returned false" };
-    return { distance: c.separation, point_a: list(c.pointA), point_b: list(c.pointB),
-      claimed_tolerance: gjk_claim(scene, a, b, c.separation) };
+    const answer = closest(scene, a, b, unlimited);
+    return answer.distance === undefined ? { outcome: "not_converged", detail: "proximityInfo returned false" } : answer;
   },
+  ...kit.margin_questions(closest), // PxGjkQuery.h, proximityInfo, contactDistance
   // Sweeps the second shape.
   time_of_impact({ a, b }, scene) {
     const moved = kit.relative_translation(scene.bodies[b], scene.bodies[a]), length = kit.f(Math.hypot(...moved));

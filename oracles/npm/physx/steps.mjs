@@ -46,6 +46,7 @@ class Stage {
     const at = transform(place(this.scene, body, pose));
     const is_static = is_fixed(s) && !this.kinematic; // PhysX pairs no static actors
     const actor = is_static ? physics.createRigidStatic(at) : physics.createRigidDynamic(at);
+    if (this.contact_offset) shape.setContactOffset(this.contact_offset);
     actor.attachShape(shape);
     shape.release(); // the actor holds it
     if (this.kinematic) actor.setRigidBodyFlag(px.PxRigidBodyFlagEnum.eKINEMATIC, true);
@@ -105,8 +106,9 @@ export function broad_phase(how) {
   };
 }
 
-// The points of a contact between a and b, with normals from a to b.
-function contact_points(scene, a, b) {
+// The points of a contact between a and b, with normals from a to b. The shapes' contact offsets are PhysX's own, or one
+// of half the margin each.
+function contact_points(scene, a, b, margin) {
   const found = [], room = keep(new px.PxArray_PxContactPairPoint(64));
   const stage = new Stage(scene, "eABP", (i, j, shader) => {
     shader.outputPairFlags = reported;
@@ -121,6 +123,7 @@ function contact_points(scene, a, b) {
       }
     }
   });
+  stage.contact_offset = margin / 2;
   try {
     [a, b].forEach((body) => stage.insert(body, scene.bodies[body].pose));
     stage.step();
@@ -129,15 +132,20 @@ function contact_points(scene, a, b) {
     stage.release();
   }
 }
-function touching(scene, a, b) {
+function touching(scene, a, b, margin = 0) {
   if ([a, b].every((body) => is_fixed(shape_of(scene, body)))) throw new kit.Unsupported("PhysX reports no contacts of two planes");
-  return contact_points(scene, a, b).filter((p) => p.depth >= 0);
+  return contact_points(scene, a, b, margin).filter((p) => p.depth >= -margin);
 }
 // PxContactPairPoint: the separation is that of the shapes at the point.
 export const simulation = {
   settings: "contact reports of a step, PCM, contact offset 0.02, rest offset 0; bodies without a response",
   overlap({ a, b }, scene) {
     return { overlap: touching(scene, a, b).length > 0, claimed_tolerance: step_claim(scene, a, b) };
+  },
+  // PxShape.h, setContactOffset: shapes nearer than the sum of their offsets, which are positive, generate contacts.
+  within({ a, b }, scene) {
+    if (!(scene.margin > 0)) throw new kit.Unsupported("contact offsets are positive");
+    return { overlap: touching(scene, a, b, scene.margin).length > 0, claimed_tolerance: step_claim(scene, a, b) };
   },
   contact({ a, b }, scene) {
     const points = touching(scene, a, b), claimed_tolerance = step_claim(scene, a, b);

@@ -51,6 +51,11 @@ function contact_of(scene, a, b, reach) {
   return p.shape.contactShape(p.t, p.q, q.shape, q.t, q.q, reach);
 }
 
+function closest(scene, a, b, reach) {
+  const c = contact_of(scene, a, b, reach);
+  return c ? { distance: c.distance, point_a: list(c.point1), point_b: list(c.point2) } : {};
+}
+
 // What castShape takes after the two shapes, by the number of its arguments, which differs between releases: the
 // latest time; whether a shape that starts in contact is reported, as it is without this argument; before both, the
 // distance to stop at; after them, an object to write to, which may be left out.
@@ -123,10 +128,11 @@ const engine = {
     return { overlap: true, normal: list(c.normal1), depth: -c.distance };
   },
   distance({ a, b }, scene) {
-    const c = contact_of(scene, a, b, unlimited_reach);
-    if (!c) throw new kit.Unsupported("Rapier found no closest points");
-    return { distance: c.distance, point_a: list(c.point1), point_b: list(c.point2) };
+    const answer = closest(scene, a, b, unlimited_reach);
+    if (answer.distance === undefined) throw new kit.Unsupported("Rapier found no closest points");
+    return answer;
   },
+  ...kit.margin_questions(closest), // Shape.contactShape, prediction
   time_of_impact({ a, b }, scene) {
     const translation = kit.relative_translation(scene.bodies[a], scene.bodies[b]), [p, q] = pair(scene, a, b);
     return cast(p, translation, q);

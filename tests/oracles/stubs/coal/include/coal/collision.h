@@ -1,11 +1,14 @@
 #pragma once
 
+#include <limits>
+
 #include "coal/distance.h"
 
 namespace coal {
 
 struct CollisionRequest : QueryRequest {
   CoalScalar security_margin = 0;
+  bool enable_distance_lower_bound = false;
 };
 struct Contact {
   Vec3s normal, pos;
@@ -13,6 +16,7 @@ struct Contact {
 };
 class CollisionResult {
  public:
+  CoalScalar distance_lower_bound = std::numeric_limits<CoalScalar>::max();
   bool isCollision() const { return !contacts_.empty(); }
   const Contact& getContact(std::size_t i) const { return contacts_[i]; }
   void addContact(const Contact& c) { contacts_.push_back(c); }
@@ -24,7 +28,9 @@ class CollisionResult {
 inline std::size_t collide(const CollisionGeometry* a, const Transform3s& ta, const CollisionGeometry* b,
                            const Transform3s& tb, const CollisionRequest& request, CollisionResult& out) {
   DistanceResult r;
-  if (distance(a, ta, b, tb, {}, r) > request.security_margin) return 0;
+  const CoalScalar d = distance(a, ta, b, tb, {}, r);
+  if (request.enable_distance_lower_bound) out.distance_lower_bound = d;
+  if (d > request.security_margin) return 0;
   out.addContact({r.normal, (r.nearest_points[0] + r.nearest_points[1]) / 2, r.min_distance});
   return 1;
 }
