@@ -3,7 +3,7 @@
 // points of the exact support faces are used (within manifold_face_factor), so each lies within depth/2 of
 // both bodies and has the full depth. A face tilted by more than that against the normal contributes its
 // deepest edge or vertex. Round faces (caps of cylinders, bases of cones) are represented by inscribed
-// polygons (rim.h).
+// polygons (rim.h), and by points of the rim where the other outline cuts it (flat_rims.h).
 #pragma once
 
 #include <vector>

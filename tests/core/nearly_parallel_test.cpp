@@ -240,3 +240,62 @@ TEST_CASE("manifolds of most bodies on a lattice cover the contact region", "[na
   // The others are curved sides and faces whose normal a search has found, to less than rounding.
   CHECK(covered_well >= 0.94 * regions);
 }
+
+TEST_CASE("a cut rim covers its contact", "[core][manifold]") {
+  Rng rng(20261128);
+  int regions = 0, small = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const auto size = [&] { return rng.uniform(0.25, 1); };
+    // With their height above the origin.
+    const auto round = [&]() -> std::pair<Shape, double> {
+      const double radius = size(), half = size();
+      if (rng.chance(0.5)) return {Cylinder{radius, half}, half};
+      return {Padded<Cylinder>{{radius, half}, 0.125}, half + 0.125};
+    };
+    const auto flat = [&]() -> std::pair<Shape, double> {
+      if (rng.chance(0.3)) return round();
+      const double x = size(), y = size();
+      return {Box{{x, y, 0.5}}, 0.5};
+    };
+    const auto [a, top] = round();
+    const auto [b, bottom] = flat();
+    Pair p{a, b, {}, {}};
+    const double overlap = rng.chance(0.5) ? 0 : rng.uniform(1e-3, 0.05);
+    const double turn = rng.uniform(0, 3), x = rng.uniform(-1.5, 1.5), y = rng.uniform(-1.5, 1.5);
+    p.pose_b = {{x, y, top + bottom - overlap}, turn_about(Vec3(0, 0, 1), turn)};
+    if (rng.chance(0.5)) std::swap(p.a, p.b), std::swap(p.pose_a, p.pose_b);
+    const ContactAnswer r = contact(p.placed_a(), p.placed_b());
+    REQUIRE(r.outcome == Outcome::answered);
+    if (!r.overlap || std::abs(r.normal.z()) < 0.999999) continue;
+    const double share = covered(p, r);
+    if (share < 0) continue;
+    INFO(i << ", overlap " << overlap);
+    CHECK(share >= 0.95);
+    check_points(p, r);
+    ++regions;
+    small += r.manifold.size() < 12;
+  }
+  CHECK(regions > 1000);
+  CHECK(small > 100);
+}
+
+TEST_CASE("a straight line on a cylinder meets an edge along its length", "[core][manifold]") {
+  Rng rng(7);
+  for (int i = 0; i < 1000; ++i) {
+    const double radius = rng.uniform(0.25, 1), other = rng.uniform(0.25, 1);
+    const bool box = rng.chance(0.5);
+    Pair p{
+        Cylinder{radius, 0.75}, box ? Shape(Box{{other, other, 0.5}}) : Shape(Cylinder{other, 0.5}), {}, {}};
+    const double angle = rng.uniform(0, 6), depth = rng.uniform(0.01, 0.1);
+    const Vec3 n(std::cos(angle), std::sin(angle), 0);
+    const double reach = radius + (box ? std::sqrt(2.0) * other : other) - depth;
+    const Quat turned = turn_about(Vec3(0, 0, 1), angle + std::numbers::pi / 4);
+    p.pose_b = {n * reach + Vec3(0, 0, rng.uniform(-0.5, 0.5)), turned};
+    if (rng.chance(0.5)) std::swap(p.a, p.b), std::swap(p.pose_a, p.pose_b);
+    const ContactAnswer r = contact(p.placed_a(), p.placed_b());
+    REQUIRE(r.outcome == Outcome::answered);
+    INFO(i << " " << box);
+    CHECK(covered(p, r) >= 0.95);
+    check_points(p, r);
+  }
+}

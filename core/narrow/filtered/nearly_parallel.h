@@ -76,8 +76,8 @@ Spots<R> face_spots(const Corners<R>& window, Corners<R> subject, bool window_is
   return r;
 }
 
-/// Two edges of bodies rounded by balls, at most one radius of which is 0: the ends of what they have in
-/// common along A. `beside` is the largest distance of the two across the plane. A ball's surface `s` beside
+/// Two edges, rounded with these radii, at most one of which is 0: the ends of what they have in common along
+/// A. `beside` is the largest distance of the two across the plane. A ball's surface `s` beside
 /// its centre is s²/(r + √(r² − s²)) below its top.
 template <class R>
 Spots<R> edge_spots(Corners<R> a, const Corners<R>& b, R radius_a, R radius_b, R beside) {

@@ -15,6 +15,7 @@
 #include "core/narrow/filtered/beyond_face.h"
 #include "core/narrow/filtered/nearly_parallel.h"
 #include "core/narrow/filtered/query.h"
+#include "core/narrow/flat_rims.h"
 #include "core/narrow/outline.h"
 #include "core/narrow/result.h"
 #include "core/shape/convex_body.h"
@@ -102,6 +103,13 @@ class FeatureCorners {
         if (const R s = outline::turn(w0, w1, c); !(s > 0 && s * s >= least)) return false;
     }
     return true;
+  }
+  /// The rim within the limit, if that is what bounds the face.
+  std::optional<outline::Circle<R>> rim() const {
+    const auto found = on_core(c_, [&](const auto& core) { return outline::flat_rim(core, at_); });
+    if (!found) return std::nullopt;
+    const Corner<R> centre = flat(found->first, 0);
+    return outline::Circle<R>{centre.x, centre.y, found->second};
   }
   bool is_polytope() const {
     return on_core(c_, [](const auto& core) { return core.is_polytope; });
@@ -200,6 +208,12 @@ Corners<R> cross_edges(Corners<R>& a, const Corners<R>& b, R tolerance) {
   return r;
 }
 
+/// How an edge is rounded that two corners of the body's outline stand for.
+template <class R>
+R edge_radius(const ConvexBody<R>& c) {
+  return c.radius + on_core(c, [](const auto& core) { return outline::side_radius(core); });
+}
+
 }  // namespace detail
 
 /// Manifold of cores a, b (b at `at`; null: a half-space) along n (A's frame, unit, A to B), where `gap` <= 0
@@ -283,6 +297,14 @@ Patch<R> contact_patch(const ConvexBody<R>& a, const ConvexBody<R>* b, const Rel
       region = cross_edges(fa, fb, 4 * tolerance);
     }
   }
+  if (b) {
+    Corners<R> none;
+    const auto rim_a = of_a(tolerance, none).rim(), rim_b = of_b(tolerance, none).rim();
+    if (rim_a || rim_b) {
+      if (fb.size == 0) show_b(tolerance, fb);
+      if (fa.size > 1 && fb.size > 1) outline::complete_rims(fa, rim_a, fb, rim_b, tolerance, region);
+    }
+  }
   if (region.overflow || fa.overflow || fb.overflow) return patch;
   // The number of the point; an earlier one if that is not farther away than `same`.
   const auto add = [&](R x, R y, R below_a, R below_b, std::uint32_t id, R same) {
@@ -324,7 +346,8 @@ Patch<R> contact_patch(const ConvexBody<R>& a, const ConvexBody<R>* b, const Rel
   show_a(near, near_a);
   show_b(near, near_b);
   const R beside = static_cast<R>(tolerance::manifold_beside_factor) * own_size;
-  const Spots<R> spots = nearly_parallel_spots(near_a, near_b, a.radius, b->radius, tolerance, beside);
+  const Spots<R> spots =
+      nearly_parallel_spots(near_a, near_b, edge_radius(a), edge_radius(*b), tolerance, beside);
   const R same = static_cast<R>(tolerance::manifold_same_factor) * own_size;
   // The first point is the deepest. It stays if it is a corner of the region, or if none of them is as deep.
   bool keeps_first = true;
