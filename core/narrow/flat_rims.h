@@ -43,6 +43,26 @@ RimOfCore<R> flat_rim(const C&, const convex::FaceQuery<R>&) {
   return std::nullopt;
 }
 
+/// A point that is as near as `near` to the rim of a core, on it; any other as it is.
+template <class R>
+V3<R> on_rim(R z, R radius, const V3<R>& p, R near) {
+  const R flat = convex::flat_length(p);
+  if (!(flat > 0) || abs(flat - radius) > near || abs(p[2] - z) > near) return p;
+  return {p[0] * (radius / flat), p[1] * (radius / flat), z};
+}
+template <class R>
+V3<R> snapped_to_rim(const convex::CylinderCore<R>& c, const V3<R>& p, R near) {
+  return on_rim<R>(convex::toward(c.half_height, p[2]), c.radius, p, near);
+}
+template <class R>
+V3<R> snapped_to_rim(const convex::ConeCore<R>& c, const V3<R>& p, R near) {
+  return on_rim<R>(-c.half_height, c.radius, p, near);
+}
+template <class C, class R>
+V3<R> snapped_to_rim(const C&, const V3<R>& p, R) {
+  return p;
+}
+
 /// The radius of a core at the straight lines on its side: of a cylinder. 0: it has edges there, or none.
 template <class R>
 R side_radius(const convex::CylinderCore<R>& c) {

@@ -120,6 +120,24 @@ TEST_CASE("the deepest point of a manifold lies on a rim", "[core][padded]") {
   }
 }
 
+TEST_CASE("beside the support point, too, the deepest point lies on the rim", "[core][padded]") {
+  const double radius = 0.4053074550674155;
+  const Shape a = Cylinder{radius, 0.573309263980696}, b = Capsule{0.2580858898500609, 1.0630113792334914};
+  const Pose p{Vec3(0, 0, 0),
+               {0.29471323071481376, 0.7495111777822936, -0.34048747019993175, 0.48522715160828206}};
+  const Pose q{Vec3(-0.5808153492094879, 0.20655245710514936, 0.7277758133063561),
+               {0.4694506427496947, -0.7685853635802279, -0.12385734534671011, -0.4165957163915796}};
+  for (const bool exchanged : {false, true}) {
+    const ContactAnswer c = exchanged ? contact({&b, q}, {&a, p}) : contact({&a, p}, {&b, q});
+    REQUIRE(c.manifold.size() == 2);
+    const Vec3 from_a = exchanged ? Vec3(-c.normal) : c.normal;
+    const auto& deepest = *std::ranges::max_element(c.manifold, {}, &ContactPoint::depth);
+    const Vec3 on_a = rotation_matrix(p.rotation).transpose() *
+                      (deepest.position + from_a * (deepest.depth / 2) - p.translation);
+    CHECK(std::hypot(on_a.x(), on_a.y()) == Approx(radius).epsilon(0).margin(1e-15));
+  }
+}
+
 TEST_CASE("boxes around padded shapes hold them, and no more", "[core][padded]") {
   Rng r(42);
   for (const Shape& core : cores()) {

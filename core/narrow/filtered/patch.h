@@ -332,7 +332,17 @@ Patch<R> contact_patch(const ConvexBody<R>& a, const ConvexBody<R>* b, const Rel
                            ? V3<R>(top_a + n * (a.radius + gap / 2))
                            : V3<R>(at.b_to_a * top_b + at.offset - n * (b->radius + gap / 2));
     const R same = static_cast<R>(foot_factor) * size;
-    return (foot - *middle).squaredNorm() <= same * same ? foot : *middle;
+    if ((foot - *middle).squaredNorm() <= same * same) return foot;
+    // Elsewhere on the rim.
+    const auto on_core_of = [&](const ConvexBody<R>& c, const V3<R>& p) {
+      return on_core(c, [&](const auto& core) { return outline::snapped_to_rim(core, p, same); });
+    };
+    if (a.radius < b->radius) {
+      const V3<R> rise = n * (a.radius + gap / 2);
+      return V3<R>(on_core_of(a, V3<R>(*middle - rise)) + rise);
+    }
+    const V3<R> rise = at.offset - n * (b->radius + gap / 2);
+    return V3<R>(at.b_to_a * on_core_of(*b, V3<R>(at.b_to_a.transpose() * (*middle - rise))) + rise);
   };
   if (middle && std::all_of(patch.point.begin(), patch.point.begin() + patch.size, less_deep) &&
       patch.size < Patch<R>::capacity)
