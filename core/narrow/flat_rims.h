@@ -11,6 +11,7 @@
 #include "core/narrow/outline.h"
 #include "core/shape/cone.h"
 #include "core/shape/cylinder.h"
+#include "core/shape/rim.h"
 
 namespace touchstone::narrow::outline {
 
@@ -194,8 +195,9 @@ class CutRim {
 
 }  // namespace detail
 
-/// Adds to `region`, the intersection of two supporting faces, what it loses at their rims, and puts it
-/// first; the crossings of the inscribed polygons go. The outlines have two corners at least.
+/// Adds to `region`, the intersection of two supporting faces, what it loses at their rims; the crossings of
+/// the inscribed polygons go. In convex order, with no more corners than a whole rim, unless a corner lies
+/// below the faces. The outlines have two corners at least.
 template <class R>
 void complete_rims(const Corners<R>& a, const std::optional<Circle<R>>& rim_a, const Corners<R>& b,
                    const std::optional<Circle<R>>& rim_b, R tolerance, Corners<R>& region) {
@@ -210,8 +212,19 @@ void complete_rims(const Corners<R>& a, const std::optional<Circle<R>>& rim_a, c
     detail::CutRim<R>(rim_a ? *rim_a : *rim_b, rim_a.has_value(), tolerance, all).by(rim_a ? b : a);
   }
   if (all.size == 0) return;
-  for (const Corner<R>& c : region)
+  bool is_flat = true;
+  for (const Corner<R>& c : region) {
+    is_flat &= c.below <= tolerance;
     if (!(c.id & crossing) || c.below > tolerance) all.add(c);
+  }
+  if (is_flat) {
+    // Of the corners that the region had, every other one, from the last.
+    for (int k = all.size - 1; k >= 0 && all.size > convex::rim_corners; k -= 2) {
+      std::copy(all.begin() + k + 1, all.end(), all.begin() + k);
+      --all.size;
+    }
+    convex_order(all, tolerance);
+  }
   region = all;
 }
 
