@@ -96,7 +96,7 @@ class CutRim {
   void by(const Corners<R>& w) {
     const int edges = w.size == 2 ? 1 : w.size;
     for (int i = 0; i < edges; ++i) cross(w[i], w[(i + 1) % w.size]);
-    // Half a corner's angle: how far in the polygon's edges are, about.
+    // Corners between the rim and the edges of its polygon, and those on the rim.
     for (const Corner<R>& c : w) {
       const R d = distance(c);
       if (!(d > inner_share * c_.radius) || d > c_.radius + tolerance_) continue;
