@@ -155,13 +155,14 @@ TEST_CASE("a flat hull whose corners lie on the border of a face has a whole con
 
 TEST_CASE("a needle's tip keeps its place in a contact", "[narrow][manifold]") {
   Rng rng(34);
-  for (int i = 0; i < 200; ++i) {
+  for (int i = 0; i < 400; ++i) {
     // The needle lies in the box, nearly level, its tip inside the face.
+    const double radius = std::pow(10, rng.uniform(-8, -3));
     const Pair p{RoundedBox{{1, 0.75, 0.8}, 0.25},
-                 Cone{rng.uniform(1e-4, 1e-3), 0.8},
+                 Cone{radius, 0.8},
                  {},
                  {{rng.uniform(-0.5, 0.5), 0.9, rng.uniform(-0.9, -0.3)},
-                  turn_about(Vec3(1, 0, 0), rng.uniform(-2e-4, 2e-4))}};
+                  turn_about(Vec3(1, 0, 0), rng.uniform(-0.4, 0.4) * radius)}};
     const ContactAnswer r = contact(p.placed_a(), p.placed_b());
     REQUIRE(r.overlap);
     check_points(p, r);

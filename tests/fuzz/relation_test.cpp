@@ -268,3 +268,30 @@ TEST_CASE("only a time within the step is compared with the poses within the ste
     CHECK(derived_from(outside).empty());
   }
 }
+
+TEST_CASE("the gradient that points imply is not claimed more exactly than the distance implies",
+          "[relations]") {
+  Case c;
+  c.scene.shapes = {Box{{1, 1, 1}}};
+  c.scene.bodies.resize(2);
+  c.scene.bodies[1].pose.translation = {2.5, 0.25, 0};
+  c.queries = {{Question::distance, 0, 1}};
+  const EngineCard card{"test", "", "", "", 0x1p-53, 64, "a page"};
+  // Two faces 0.5 apart; the points lie beside each other by a share of the root of the engine's rounding.
+  const auto is_broken = [&](double beside) {
+    Observation o;
+    o.outcome = Outcome::answered;
+    o.distance = 0.5;
+    o.witness = {Vec3(1, 0, 0), Vec3(1.5, beside, 0)};
+    const CaseObservations base{{}, {o}};
+    const fuzz::RelationInput in{c, card, base};
+    const EnginePtr core = make_core_engine();
+    for (const fuzz::Derived& d : fuzz::derive_slope(in))
+      if (fuzz::find_break(fuzz::relations()[7], in, d, core->run({&d.c, 1})[0])) return true;
+    return false;
+  };
+  REQUIRE(fuzz::relations()[7].name == "relation_slope");
+  CHECK_FALSE(is_broken(0));
+  CHECK_FALSE(is_broken(1e-8));
+  CHECK(is_broken(0.25));
+}

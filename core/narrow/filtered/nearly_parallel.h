@@ -50,10 +50,19 @@ R below_at(const Corners<R>& outline, R x, R y) {
   return most;
 }
 
-/// A corner of the window that is as near as this · the tolerance to a place is that place: in a needle,
-/// places between corners are not as accurate. Tested by: tests/core "a needle's tip keeps its place in a
-/// contact".
-inline constexpr double corner_factor = 0x1p12;
+/// Whether a point in the window, to within rounding, is beyond its corner i: edges of a needle end where
+/// rounding lets their lines cross.
+template <class R>
+bool is_beyond(const Corners<R>& window, int i, const Corner<R>& p) {
+  const Corner<R>& w = window[i];
+  const auto inwards = [&](const Corner<R>& other) {
+    const R x = other.x - w.x, y = other.y - w.y;
+    return std::pair<R, R>(x / sqrt(x * x + y * y), y / sqrt(x * x + y * y));
+  };
+  const auto [x0, y0] = inwards(window[(i + 1) % window.size]);
+  const auto [x1, y1] = inwards(window[(i + window.size - 1) % window.size]);
+  return (x0 + x1) * (p.x - w.x) + (y0 + y1) * (p.y - w.y) < 0;
+}
 
 /// `window`, a polygon, and the part of `subject` inside it.
 template <class R>
@@ -61,16 +70,15 @@ Spots<R> face_spots(const Corners<R>& window, Corners<R> subject, bool window_is
   outline::clip(subject, window, tolerance, window_is_a);
   Spots<R> r;
   if (subject.overflow) return r;
-  const R same = static_cast<R>(corner_factor) * tolerance;
   for (Corner<R> c : subject) {
-    const auto is_here = [&](const Corner<R>& w) { return abs(w.x - c.x) + abs(w.y - c.y) <= same; };
-    const Corner<R>* const corner = std::find_if(window.begin(), window.end(), is_here);
-    const bool is_corner = corner != window.end();
+    int corner = 0;
+    while (corner < window.size && !is_beyond(window, corner, c)) ++corner;
+    const bool is_corner = corner < window.size;
     if (is_corner) {
-      c.x = corner->x;
-      c.y = corner->y;
+      c.x = window[corner].x;
+      c.y = window[corner].y;
     }
-    const R of_window = is_corner ? corner->below : below_at(window, c.x, c.y);
+    const R of_window = is_corner ? window[corner].below : below_at(window, c.x, c.y);
     r.add({c.x, c.y, window_is_a ? of_window : c.below, window_is_a ? c.below : of_window, c.id});
   }
   return r;

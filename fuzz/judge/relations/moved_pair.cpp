@@ -151,9 +151,10 @@ std::vector<Derived> derive_grow(const RelationInput& in) {
 namespace {
 
 // The derivative of the distance by translations of B that the answer's points imply, and how far off it may
-// be; empty where they are too near to each other, or for surfaces, whose distance is not convex. An error e
-// of the normal lowers the gap of the planes across it by up to e times the extents, at most 2 L, and changes
-// n·v by e·|v|.
+// be; empty where they are too near to each other, or for surfaces, whose distance is not convex. Points within
+// τ of their bodies, and at most d + 3 τ apart, lie up to √(8 τ d) beside the nearest ones: their direction may
+// be off by e = √(8 τ / d) and some τ / d. That lowers the gap of the planes across it by up to e times the
+// extents, at most 2 L, and changes n·v by e·|v|.
 struct Slope {
   Vec3 normal;
   double error;
@@ -166,7 +167,7 @@ std::optional<Slope> implied_slope(const RelationInput& in, const Query& q, cons
   const Vec3 way = (*o.witness)[1] - (*o.witness)[0];
   const double length = way.stableNorm();
   if (!(length > least_distance * scale_of_pair(s, q.a, q.b)) || !std::isfinite(length)) return std::nullopt;
-  return Slope{way / (*o.distance < 0 ? -length : length), 4 * tau / length};
+  return Slope{way / (*o.distance < 0 ? -length : length), std::sqrt(8 * tau / length) + 4 * tau / length};
 }
 
 }  // namespace
