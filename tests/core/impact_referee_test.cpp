@@ -58,6 +58,30 @@ TEST_CASE("impact: the referee finds no hit missed, late, early or a ghost", "[i
   CHECK(n.decided > 0.9 * n.cases);
 }
 
+TEST_CASE("a needle of points does not meet an ellipsoid early", "[impact][referee]") {
+  // Fuzzing case zero/556/389104: the last simplex is a needle, whose plane is nearer than its points.
+  std::vector<Vec3> line;
+  for (const double z :
+       {-0.26159518946033916, 0.0650536795823392,   0.03261345712791967,  -0.04446790373509788,
+        -0.11820637120178014, -0.4612189653635376,  0.18759970334338072,  -0.24970597046714363,
+        0.2677149392364285,   -0.1346398787928015,  -0.3037078542120063,  -0.42043326847872176,
+        0.34415652025493254,  -0.30822597466199914, 0.020369340271192478, -0.02833249845714714,
+        -0.24850624483261913, -0.34176005874098686, 0.07235700288235505,  0.20834788926551376,
+        -0.38485768786967245})
+    line.push_back({0, 0, z});
+  const CoursePair c{
+      {Ellipsoid{{0.48286665117148564, 1.0120584460355186, 1.103845213257237}},
+       make_hull(line),
+       {{0, 0, 0}, {-0.9505035185617576, -0.06887295587405409, -0.22040861090029015, -0.2078932932826195}},
+       {{-0.2721422044165023, 0.5481311124992021, 1.0896379646157912},
+        {-0.3226048291226202, -0.30117837712500933, 0.34309564409454707, -0.8291580599514538}}},
+      {},
+      {{0.3443794674089703, -0.44905093399117646, -1.2133882847614665}, Vec3::Zero()}};
+  Tally n;
+  check_course(c, n);
+  CHECK(n.hits == 1);
+}
+
 TEST_CASE("impact: published hulls in motion, including sheets and needles",
           "[impact][referee][real][data]") {
   const std::filesystem::path zoo = shared_data() / "hulls";
