@@ -1,5 +1,6 @@
-// Questions about a limit: is the distance at most this, and the distance if it is at most this. Pairs that
-// are clearly farther apart are answered from a bound: the gap along the line between the bodies' origins.
+// Questions about a limit: is the distance at most this, the distance if it is, the contact if it is. Pairs
+// that are clearly farther apart are answered from a bound: the gap along the line between the bodies'
+// origins.
 #pragma once
 
 #include <optional>
@@ -28,6 +29,13 @@ struct WithinAnswer {
 /// whether the closed bodies overlap.
 WithinAnswer within(const PlacedShape& a, const PlacedShape& b, double margin,
                     Arithmetic arithmetic = Arithmetic::float64, PairMemory* memory = nullptr);
+
+/// The contact of bodies that are not farther apart than `margin` (finite, any sign): `overlap` says whether
+/// they are within it, and `depth`, of the contact and of its points, is negative where they are apart. The
+/// points cover what is no farther apart along the normal than the margin; of bodies in `mesh` or
+/// `solid_mesh` they are those of contact(), or one between the nearest points. A margin of 0 is contact().
+ContactAnswer contact_within(const PlacedShape& a, const PlacedShape& b, double margin,
+                             Arithmetic arithmetic = Arithmetic::float64, PairMemory* memory = nullptr);
 
 /// A lower bound of the signed distance, -infinity if the shapes have none along the line between their
 /// origins. Much cheaper than a distance.

@@ -1,5 +1,6 @@
 #include "core/narrow/narrow_phase.h"
 
+#include "core/narrow/bounded.h"
 #include "core/narrow/flat_mesh.h"
 #include "core/narrow/pair_table.h"
 #include "core/narrow/solid.h"
@@ -34,17 +35,18 @@ bool overlaps(const FastAnswer<R>& f) {
 
 // Transforms the points from the frame of the table row's A to the world.
 template <class R>
-bool fill_manifold(const FastAnswer<R>& f, const PlacedShape& a, const PlacedShape& b, Manifold& out) {
+bool fill_manifold(const FastAnswer<R>& f, const PlacedShape& a, const PlacedShape& b, double margin,
+                   Manifold& out) {
   const filtered::Answer<R>& s = f.answer;
   if (f.scene.contact == filtered::ContactForm::point) {
-    out.push_back({world<R>((s.a + s.b) / 2, a), std::max<double>(0, -s.gap), 0});
+    out.push_back({world<R>((s.a + s.b) / 2, a), std::max<double>(-margin, -s.gap), 0});
     return true;
   }
   const PlacedShape& origin = f.mirrored ? b : a;
   const filtered::PairScene<R>& c = f.scene;
   const auto patch =
       filtered::contact_patch<R>(c.a, c.contact == filtered::ContactForm::plane ? nullptr : &c.b, c.at,
-                                 c.normal, s.gap, c.has_middle ? &c.middle : nullptr);
+                                 c.normal, s.gap, static_cast<R>(margin), c.has_middle ? &c.middle : nullptr);
   for (int i = 0; i < patch.size; ++i) {
     const auto& p = patch.point[static_cast<std::size_t>(i)];
     out.push_back({world<R>(c.at.a_to_world * p.p, origin), static_cast<double>(p.depth),
@@ -53,10 +55,9 @@ bool fill_manifold(const FastAnswer<R>& f, const PlacedShape& a, const PlacedSha
   return patch.size > 0;
 }
 
-// A closed form does not set bodies and frames; this function does.
+// Sets the bodies and frames of two bounded convex shapes, as a closed form does not.
 template <class R>
-void prepare_segments(FastAnswer<R>& f, const PlacedShape& a, const PlacedShape& b) {
-  if (f.scene.contact != filtered::ContactForm::segments) return;
+void prepare_cores(FastAnswer<R>& f, const PlacedShape& a, const PlacedShape& b) {
   const PlacedShape &x = f.mirrored ? b : a, &y = f.mirrored ? a : b;
   const auto from = filtered::rounded_pose<R>(x.pose), to = filtered::rounded_pose<R>(y.pose);
   f.scene.contact = filtered::ContactForm::cores;
@@ -86,8 +87,8 @@ bool fill(FastAnswer<R>& f, const PlacedShape& a, const PlacedShape& b, ContactA
   if (!r.overlap) return true;
   r.normal = f.answer.normal.template cast<double>();
   r.depth = std::max<double>(0, -f.answer.gap);
-  prepare_segments(f, a, b);
-  return fill_manifold(f, a, b, r.manifold);
+  if (f.scene.contact == filtered::ContactForm::segments) prepare_cores(f, a, b);
+  return fill_manifold(f, a, b, 0, r.manifold);
 }
 
 // Computes the fast answer. `memory`, if any, supplies the initial guess and receives the final direction.
@@ -166,6 +167,51 @@ bool fast_contact(const PlacedShape& a, const PlacedShape& b, PairMemory* memory
   return is_decided(f, false) && fill<double>(f, a, b, r);
 }
 
+// The same for the contact of bodies within the margin, from the answer of a distance.
+template <class R>
+bool fill_within(FastAnswer<R>& f, const PlacedShape& a, const PlacedShape& b, double margin,
+                 ContactAnswer& r) {
+  r.overlap = f.answer.gap <= margin;
+  r.error_bound = r.regret_bound = static_cast<double>(f.answer.bound);
+  if (!r.overlap) return true;
+  r.normal = f.answer.normal.template cast<double>();
+  r.depth = -f.answer.gap;
+  if (is_convex(kind_of(*a.shape)) && is_convex(kind_of(*b.shape))) prepare_cores(f, a, b);
+  return fill_manifold(f, a, b, margin, r.manifold);
+}
+
+// In R only; what the patch cannot show is the point between the witness points.
+template <class R>
+ContactAnswer contact_within_alone(const PlacedShape& a, const PlacedShape& b, double margin,
+                                   PairMemory* memory) {
+  ContactAnswer r;
+  if (is_unsupported<R>(a, b, r)) return r;
+  FastAnswer<R> f;
+  separate<R>(a, b, Asked::distance, memory, f);
+  if (!is_decided(f, true))
+    r.outcome = Outcome::not_converged;
+  else if (!fill_within<R>(f, a, b, margin, r))
+    r.manifold.push_back({world<R>((f.answer.a + f.answer.b) / 2, a), r.depth, 0});
+  return r;
+}
+
+// Surfaces and solids: the contact of those that overlap, else the point between the nearest ones.
+ContactAnswer mesh_contact_within(const PlacedShape& a, const PlacedShape& b, double margin,
+                                  Arithmetic arithmetic, PairMemory* memory) {
+  const DistanceAnswer d = distance(a, b, arithmetic, memory);
+  ContactAnswer r;
+  r.outcome = d.outcome;
+  r.error_bound = r.regret_bound = d.error_bound;
+  if (d.outcome != Outcome::answered || !(d.distance <= margin)) return r;
+  if (d.distance <= 0)
+    if (ContactAnswer touching = contact(a, b, arithmetic, memory); touching.overlap) return touching;
+  r.overlap = true;
+  r.normal = d.normal;
+  r.depth = -d.distance;
+  r.manifold.push_back({(d.witness[0] + d.witness[1]) / 2, r.depth, 0});
+  return r;
+}
+
 }  // namespace
 
 OverlapAnswer overlap(const PlacedShape& a, const PlacedShape& b, Arithmetic arithmetic, PairMemory* memory) {
@@ -203,6 +249,19 @@ ContactAnswer contact(const PlacedShape& a, const PlacedShape& b, Arithmetic ari
   if (r.overlap && narrow::may_be_flat(a, b))
     if (const auto flat = narrow::contact_with_plane_of(a, b, r)) r = *flat;
   return r;
+}
+
+ContactAnswer contact_within(const PlacedShape& a, const PlacedShape& b, double margin, Arithmetic arithmetic,
+                             PairMemory* memory) {
+  if (margin == 0) return contact(a, b, arithmetic, memory);
+  if (arithmetic != Arithmetic::float32 && distance_lower_bound(a, b) > margin) return {};
+  if (is_mesh(*a.shape) || is_mesh(*b.shape)) return mesh_contact_within(a, b, margin, arithmetic, memory);
+  if (arithmetic == Arithmetic::float32) return contact_within_alone<float>(a, b, margin, memory);
+  if (arithmetic == Arithmetic::float64_alone) return contact_within_alone<double>(a, b, margin, memory);
+  FastAnswer<double> f;
+  separate<double>(a, b, Asked::distance, memory, f);
+  if (ContactAnswer r; is_decided(f, false) && fill_within<double>(f, a, b, margin, r)) return r;
+  return narrow::wide_contact_within(a, b, margin);
 }
 
 }  // namespace touchstone

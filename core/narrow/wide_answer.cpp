@@ -102,6 +102,21 @@ ContactAnswer wide_contact(const PlacedShape& a, const PlacedShape& b) {
   return r;
 }
 
+ContactAnswer wide_contact_within(const PlacedShape& a, const PlacedShape& b, double margin) {
+  const Separation s = separation(a, b);
+  const DistanceAnswer d = distance_of(s, a);
+  ContactAnswer r;
+  r.outcome = d.outcome;
+  r.error_bound = d.error_bound;
+  r.regret_bound = static_cast<double>(s.slack) + d.error_bound;
+  r.overlap = d.outcome == Outcome::answered && d.distance <= margin;
+  if (!r.overlap) return r;
+  r.normal = d.normal;
+  r.depth = -d.distance;
+  for (const ManifoldVertex& v : manifold_of(a, b, s)) r.manifold.push_back({world(v.p, a), r.depth, v.id});
+  return r;
+}
+
 }  // namespace touchstone::narrow
 
 namespace touchstone {

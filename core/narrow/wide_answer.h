@@ -1,4 +1,4 @@
-// The three answers computed in extended precision on the exact pose and rounded once: correct wherever the
+// The answers computed in extended precision on the exact pose and rounded once: correct wherever the
 // fast answers are undecided, but a hundred times slower.
 #pragma once
 
@@ -12,6 +12,8 @@ namespace touchstone::narrow {
 OverlapAnswer wide_overlap(const PlacedShape& a, const PlacedShape& b);
 DistanceAnswer wide_distance(const PlacedShape& a, const PlacedShape& b);
 ContactAnswer wide_contact(const PlacedShape& a, const PlacedShape& b);
+/// As contact_within(); every point is as deep as the contact.
+ContactAnswer wide_contact_within(const PlacedShape& a, const PlacedShape& b, double margin);
 
 /// The first two, from separation(a, b).
 OverlapAnswer overlap_of(const Separation& s);

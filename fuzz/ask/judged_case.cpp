@@ -26,7 +26,7 @@ std::string within_words(referee::Verdict v) {
 
 // True when the text form of a replay states the depth.
 bool has_depth(const Query& q, const referee::PairTruth& t) {
-  return q.question == Question::contact && t.verdict == referee::Verdict::overlap && std::isfinite(t.gap.lo);
+  return is_contact_question(q.question) && t.verdict == referee::Verdict::overlap && std::isfinite(t.gap.lo);
 }
 
 }  // namespace
@@ -70,6 +70,7 @@ RefereeAnswer CaseJudge::referee_answer(const Query& q, Certificates certificate
     case Question::contact:
     case Question::within:
     case Question::bounded_distance:
+    case Question::contact_within:
       break;
   }
   const referee::PairTruth& t = truth_.pair(0, q.a, q.b);
@@ -81,7 +82,8 @@ RefereeAnswer CaseJudge::referee_answer(const Query& q, Certificates certificate
   r.verdict_certificate = t.verdict_certificate;
   if (certificates != Certificates::shown || has_depth(q, t))
     r.depth_certificate = referee::depth_certificate(t, truth_.placed(0, q.a), truth_.placed(0, q.b));
-  if (q.question == Question::within) r.within = within_words(truth_.within(0, q.a, q.b));
+  if (q.question == Question::within || q.question == Question::contact_within)
+    r.within = within_words(truth_.within(0, q.a, q.b));
   r.level = t.level;
   r.certificate = exact();
   return r;

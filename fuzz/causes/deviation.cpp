@@ -93,7 +93,7 @@ std::string missing_number(const Query& q, const Observation& o) {
   }
   if (is_motion_question(q.question)) return "time not a number";
   if (!o.overlap) return "no verdict";
-  if (q.question != Question::contact || !*o.overlap) return "no_number";
+  if (!is_contact_question(q.question) || !*o.overlap) return "no_number";
   if (!o.normal) return "no normal";
   if (!o.depth) return "no depth";
   return std::isfinite(*o.depth) ? "no_number" : "depth not a number";

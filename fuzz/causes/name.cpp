@@ -21,6 +21,8 @@ std::size_t count(const Responses& r, Response what) {
 std::string verdict_words(const NamedFault& s, bool missed) {
   if (s.symptom.question == Question::ray)
     return missed ? "Rays miss what they hit" : "Rays hit what they miss";
+  if (s.symptom.question == Question::contact_within)
+    return missed ? "Contacts within a margin are missing" : "Contacts beyond a margin are reported";
   if (s.symptom.question == Question::within)
     return missed ? "Bodies within a margin are denied" : "Bodies beyond a margin are said to be within it";
   if (s.symptom.question == Question::time_of_impact)

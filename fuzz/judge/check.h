@@ -26,8 +26,12 @@ struct CheckInput {
   double tau(int a, int b, double l) const { return tau_of(card, answer, truth.scene(), a, b, l); }
   /// For the pair asked about.
   double tau(double l) const { return tau(query.a, query.b, l); }
-  /// What the engine's settings let it report beyond τ (tau.h).
-  double offset() const { return contact_offset(card); }
+  /// How far apart bodies beyond τ may be for an answer to report them: what the engine's settings allow
+  /// (tau.h), or the margin that is asked about.
+  double offset() const {
+    return query.question == Question::contact_within ? std::max(0.0, truth.scene().margin)
+                                                      : contact_offset(card);
+  }
   double bias(int a, int b) const {
     const Scene& s = truth.scene();
     return depth_bias(card, kind_of(s.shape_of(a)), kind_of(s.shape_of(b)));
@@ -89,6 +93,7 @@ void check_bounds(const CheckInput& in, CheckOutput& out);
 void check_bounded_distance(const CheckInput& in, CheckOutput& out);
 void check_candidates_within(const CheckInput& in, CheckOutput& out);
 void check_ray(const CheckInput& in, CheckOutput& out);
+void check_contact_within(const CheckInput& in, CheckOutput& out);
 void check_gradient(const CheckInput& in, CheckOutput& out);
 
 struct CheckRow {
@@ -113,6 +118,8 @@ inline constexpr auto checks = std::to_array<CheckRow>({
     {Question::bounded_distance, check_bounds},
     {Question::candidates_within, check_candidates_within},
     {Question::ray, check_ray},
+    {Question::contact_within, check_contact_within},
+    {Question::contact_within, check_manifold},
 });
 
 /// The part of `contact` that scene contacts share: one stated contact of a pair that is not certainly apart

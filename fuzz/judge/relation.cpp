@@ -175,14 +175,14 @@ GapInterval implied_gap(const Scene& s, const Query& q, const Observation& o, co
   if (measures && o.distance)
     return std::isfinite(*o.distance) ? of_distance(*o.distance, tau, mesh) : GapInterval{};
   if (measures && (o.lower_bound || o.upper_bound)) return of_bounds(o, tau, mesh);
-  if (q.question == Question::within)
-    return o.overlap ? of_margin(*o.overlap, s.margin, tau, mesh) : GapInterval{};
-  if (q.question == Question::contact && o.overlap && *o.overlap && o.normal && o.depth && !mesh) {
+  if (is_contact_question(q.question) && o.overlap && *o.overlap && o.normal && o.depth && !mesh) {
     const double p = *o.depth;
     const double bias = depth_bias(card, kind_of(s.shape_of(q.a)), kind_of(s.shape_of(q.b)));
     const double least = -p + 2 * tau + bias * std::max(0.0, p);
     return std::isfinite(p) ? GapInterval{-p - tau, least} : GapInterval{};
   }
+  if (q.question == Question::within || q.question == Question::contact_within)
+    return o.overlap ? of_margin(*o.overlap, s.margin, tau, mesh) : GapInterval{};
   if (!is_motion_question(q.question) && o.overlap)
     return of_verdict(*o.overlap, *o.overlap ? tau + contact_offset(card) : tau);
   return {};

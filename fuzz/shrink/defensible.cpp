@@ -163,6 +163,7 @@ bool is_question_clear(const Scene& scene, const Query& q, PairClearance& pairs)
       return pairs.is_clear(q.a, q.b);
     case Question::within:
     case Question::bounded_distance:
+    case Question::contact_within:
       return pairs.is_clear(q.a, q.b) && pairs.is_clear_of_margin(q.a, q.b);
     case Question::ray:
     case Question::time_of_impact:

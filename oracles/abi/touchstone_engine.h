@@ -44,8 +44,9 @@ extern "C" {
  * 5: "separate_triangles" of a card; ts_answer.moment, unique_gradient; TS_HAS_MOMENT, TS_HAS_UNIQUE
  * 6: TS_SOLID_MESH
  * 7: ts_sink.named_point, ts_batch_sink.named_point
- * 8: TS_PADDED_CYLINDER to TS_PADDED_HULL */
-#define TS_ABI_MINOR 8
+ * 8: TS_PADDED_CYLINDER to TS_PADDED_HULL
+ * 9: TS_CONTACT_WITHIN */
+#define TS_ABI_MINOR 9
 
 #if defined(_WIN32)
 #define TS_EXPORT __declspec(dllexport)
@@ -127,8 +128,8 @@ typedef struct ts_scene {
    * pose, rounded outward; infinite for a half-space; not a box (upper < lower, or NaN) if the body's own numbers are
    * none. NULL unless TS_CANDIDATES or TS_CANDIDATES_WITHIN will be asked about the scene. The margin is not in them. */
   const ts_aabb* step_boxes;
-  double margin; /* since minor 4: a length to which TS_WITHIN, TS_BOUNDED_DISTANCE and TS_CANDIDATES_WITHIN
-                    refer */
+  double margin; /* since minor 4: a length to which TS_WITHIN, TS_BOUNDED_DISTANCE, TS_CANDIDATES_WITHIN and
+                    TS_CONTACT_WITHIN refer */
 } ts_scene;
 
 enum ts_question {
@@ -156,7 +157,11 @@ enum ts_question {
    * position along b's `linear`. `toi` is the part of `linear` after which it meets a, 0 if it starts in a,
    * and `normal` the normal of a there, out of a. `overlap`, if stated, says whether it starts in a; where
    * such a ray leaves a is not asked. */
-  TS_RAY = 10
+  TS_RAY = 10,
+  /* Since minor 9. As TS_CONTACT, if the signed distance is at most the scene's margin (closed): `overlap` says whether
+   * it is. Depths, of the contact and of its points, are negative where the bodies are apart: minus the distance. A
+   * point between bodies that are apart may be anywhere between the two surfaces. */
+  TS_CONTACT_WITHIN = 11
 }; /* Questions may be added: leave the answer to an unknown one unchanged, i.e. TS_UNSUPPORTED. */
 
 /* All but the first two are faults. An outcome is that of one question: the scene's other questions are asked all the
@@ -196,7 +201,8 @@ typedef struct ts_answer {
   double point_a[3]; /* witness on A, world */
   double point_b[3]; /* witness on B, world */
   double normal[3];  /* unit, world, from A to B: B moves along +normal to separate */
-  double depth;      /* >= 0: how far all of B must move along `normal` to separate from A */
+  double depth;      /* how far all of B must move along `normal` to separate from A; >= 0, but for
+                        TS_CONTACT_WITHIN */
   double toi;
   double claimed_tolerance; /* absolute: margin and solver tolerance that the engine's documentation claims for this
                                answer on these shapes; 0 if it claims none beyond arithmetic. Believed only if the

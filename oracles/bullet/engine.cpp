@@ -36,7 +36,7 @@ btDefaultCollisionConstructionInfo construction_of(const Setting& s) {
 
 class Engine {
  public:
-  static constexpr ts_question later_questions[] = {TS_WITHIN, TS_RAY};
+  static constexpr ts_question later_questions[] = {TS_WITHIN, TS_RAY, TS_CONTACT_WITHIN};
   static std::vector<kit::CardText> cards() {
     const std::string prefix = is_double ? "bullet-f64-" : "bullet-f32-";
     const std::string version =
@@ -107,10 +107,12 @@ class Engine {
         return ask_contact(a, b, out, nullptr);
       case TS_CONTACT:
         return ask_contact(a, b, out, &sink);
+      case TS_CONTACT_WITHIN:
+        return ask_within(a, b, out, &sink);
       case TS_DISTANCE:
         return ask_distance(a, b, out);
       case TS_WITHIN:
-        return ask_within(a, b, out);
+        return ask_within(a, b, out, nullptr);
       case TS_RAY:
         return ask_ray(a, b, out);
       default:
@@ -143,17 +145,22 @@ class Engine {
 
   /// With a sink, answers the whole contact; without one, only the overlap.
   void ask_contact(int a, int b, ts_answer& out, const ts_sink* sink) {
-    const std::vector<Point> all = points(a, b);
-    const Point* const d = deepest(all);
     // Bullet also reports points within its contact breaking threshold that do not touch.
-    const bool overlap = d && d->distance <= 0;
-    kit::set_overlap(out, overlap);
+    state_contact(points(a, b), 0, out, sink);
     out.claimed_tolerance = claimed_margin(a, b);
-    if (!overlap || !sink) return;
+  }
+
+  // What is no farther apart than `reach`; without a sink, only whether there is any.
+  static void state_contact(const std::vector<Point>& all, double reach, ts_answer& out,
+                            const ts_sink* sink) {
+    const Point* const d = deepest(all);
+    const bool found = d && d->distance <= reach;
+    kit::set_overlap(out, found);
+    if (!found || !sink) return;
     kit::set_normal(out, d->normal_ab);
     kit::set_depth(out, -d->distance);
     for (const Point& p : all)
-      if (p.distance <= 0)
+      if (p.distance <= reach)
         sink->point(sink->ctx, p.on_b.data(), kit::depth_along(d->normal_ab, p.normal_ab, -p.distance));
   }
 
@@ -171,14 +178,13 @@ class Engine {
     kit::set_points(out, d->on_a, d->on_b);
   }
 
-  // ContactResultCallback::m_closestDistanceThreshold: points are reported up to that distance.
-  void ask_within(int a, int b, ts_answer& out) {
+  // ContactResultCallback::m_closestDistanceThreshold: points are reported up to that distance. Without a
+  // sink, only whether there are any.
+  void ask_within(int a, int b, ts_answer& out, const ts_sink* sink) {
     if (sim_) throw kit::Unsupported("the simulation path has no distance query");
     if (scene_->margin < 0) throw kit::Unsupported("m_closestDistanceThreshold is not for depths");
     const auto margin = static_cast<btScalar>(scene_->margin);
-    const std::vector<Point> all = query_points(*query_world_, object(a), object(b), margin);
-    const Point* const d = deepest(all);
-    kit::set_overlap(out, d && d->distance <= margin);
+    state_contact(query_points(*query_world_, object(a), object(b), margin), margin, out, sink);
     out.claimed_tolerance = claimed_margin(a, b);
   }
 

@@ -44,7 +44,7 @@ double claimed(const coal::QueryRequest& request, double distance) {
 
 class Engine {
  public:
-  static constexpr ts_question later_questions[] = {TS_WITHIN, TS_BOUNDED_DISTANCE};
+  static constexpr ts_question later_questions[] = {TS_WITHIN, TS_BOUNDED_DISTANCE, TS_CONTACT_WITHIN};
   static std::vector<kit::CardText> cards() {
     return {{"coal", "Coal", COAL_VERSION, settings, unit_roundoff, kit::oracle_tau_factor, source}};
   }
@@ -72,12 +72,13 @@ class Engine {
   }
 
   void ask(ts_question question, int a, int b, ts_answer& out, const ts_sink& sink) {
-    const bool of_margin = question == TS_WITHIN || question == TS_BOUNDED_DISTANCE;
+    const bool of_margin =
+        question == TS_WITHIN || question == TS_BOUNDED_DISTANCE || question == TS_CONTACT_WITHIN;
     if (question > TS_CONTACT && !of_margin)
       throw kit::Unsupported("Coal answers overlap, distance, contact and margins of two bodies");
     const Body &one = bodies_[static_cast<std::size_t>(a)], &two = bodies_[static_cast<std::size_t>(b)];
     if (question == TS_DISTANCE) return ask_distance(one, two, out);
-    if (of_margin) return ask_near(question, one, two, out);
+    if (of_margin) return ask_near(question, one, two, out, sink);
     ask_contact(one, two, out, question == TS_CONTACT ? &sink : nullptr);
   }
 
@@ -108,24 +109,31 @@ class Engine {
     const double signed_distance = contact.penetration_depth;
     out.claimed_tolerance = claimed(request, signed_distance);
     if (signed_distance > 0) return kit::set_overlap(out, false);
-    const Vec3 normal = contact.normal.cast<double>(), position = contact.pos.cast<double>();
-    kit::set_normal(out, normal);
-    kit::set_depth(out, -signed_distance);
-    sink->point(sink->ctx, position.data(), -signed_distance);
+    state(contact, out, *sink);
   }
 
-  void ask_near(ts_question question, const Body& a, const Body& b, ts_answer& out) const {
+  static void state(const coal::Contact& contact, ts_answer& out, const ts_sink& sink) {
+    const Vec3 normal = contact.normal.cast<double>(), position = contact.pos.cast<double>();
+    kit::set_normal(out, normal);
+    kit::set_depth(out, -contact.penetration_depth);
+    sink.point(sink.ctx, position.data(), -contact.penetration_depth);
+  }
+
+  void ask_near(ts_question question, const Body& a, const Body& b, ts_answer& out,
+                const ts_sink& sink) const {
     coal::CollisionRequest request;
     request.security_margin = static_cast<coal::CoalScalar>(margin_);
     request.enable_distance_lower_bound = question == TS_BOUNDED_DISTANCE;
     coal::CollisionResult result;
     coal::collide(a.geometry, a.transform, b.geometry, b.transform, request, result);
     out.claimed_tolerance = claimed(request, margin_);
-    if (question == TS_WITHIN) return kit::set_overlap(out, result.isCollision());
+    if (question != TS_BOUNDED_DISTANCE) kit::set_overlap(out, result.isCollision());
+    if (question == TS_WITHIN || (question == TS_CONTACT_WITHIN && !result.isCollision())) return;
     if (!result.isCollision()) return kit::set_lower_bound(out, result.distance_lower_bound);
     if (has_mesh(a, b)) throw kit::Unsupported("a mesh's contacts have the distances of single triangles");
     const double distance = result.getContact(0).penetration_depth;
     out.claimed_tolerance = claimed(request, distance);
+    if (question == TS_CONTACT_WITHIN) return state(result.getContact(0), out, sink);
     kit::set_distance(out, distance);
   }
 

@@ -58,6 +58,8 @@ void answer_by_question(Asked& asked, const Query& q, Observation& o) {
       return asked.candidates_within(o);
     case Question::ray:
       return asked.ray(q, o);
+    case Question::contact_within:
+      return asked.contact_within(q, o);
   }
 }
 

@@ -62,6 +62,10 @@ struct Asked {
   void within(const Query& q, Observation& o) const {
     store(touchstone::within(placed(s, q.a), placed(s, q.b), s.margin, arithmetic), o);
   }
+  void contact_within(const Query& q, Observation& o) const {
+    const ContactAnswer r = touchstone::contact_within(placed(s, q.a), placed(s, q.b), s.margin, arithmetic);
+    store(r, r.manifold, o);
+  }
   void bounded_distance(const Query& q, Observation& o) const {
     store(touchstone::distance(placed(s, q.a), placed(s, q.b), s.margin, arithmetic), o);
   }

@@ -104,6 +104,11 @@ struct Asked {
                              &kept.memory(q)),
           o);
   }
+  void contact_within(const Query& q, Observation& o) {
+    const ContactAnswer r = touchstone::contact_within(kept.placed(q.a), kept.placed(q.b), s.margin,
+                                                       Arithmetic::float64, &kept.memory(q));
+    store(r, reduced(r), o);
+  }
   void bounded_distance(const Query& q, Observation& o) {
     store(touchstone::distance(kept.placed(q.a), kept.placed(q.b), s.margin, Arithmetic::float64,
                                &kept.memory(q)),

@@ -141,6 +141,7 @@ class Engine {
       case TS_BOUNDED_DISTANCE:
       case TS_CANDIDATES_WITHIN:
       case TS_RAY:
+      case TS_CONTACT_WITHIN:
         break;
     }
     throw kit::Unsupported("unknown question");

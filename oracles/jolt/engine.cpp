@@ -74,7 +74,7 @@ struct Body {
 
 class Engine {
  public:
-  static constexpr ts_question later_questions[] = {TS_WITHIN, TS_BOUNDED_DISTANCE};
+  static constexpr ts_question later_questions[] = {TS_WITHIN, TS_BOUNDED_DISTANCE, TS_CONTACT_WITHIN};
   static std::vector<kit::CardText> cards() {
     std::vector<kit::CardText> all;
     for (const Setting& s : rows)
@@ -119,6 +119,8 @@ class Engine {
       case TS_WITHIN:
       case TS_BOUNDED_DISTANCE:
         return ask_near(question, one, two, out);
+      case TS_CONTACT_WITHIN:
+        return ask_contact_within(one, two, out, sink);
       default:
         return ask_time(one, two, out);
     }
@@ -167,9 +169,13 @@ class Engine {
   }
 
   // CollideShape.h, mMaxSeparationDistance: shapes that are no farther apart are found.
-  void ask_near(ts_question question, const Body& a, const Body& b, ts_answer& out) const {
+  std::optional<JPH::CollideShapeResult> near(const Body& a, const Body& b) const {
     if (margin_ < 0) throw kit::Unsupported("a separation distance is not for depths");
-    const auto hit = closest(a, b, static_cast<float>(margin_));
+    return closest(a, b, static_cast<float>(margin_));
+  }
+
+  void ask_near(ts_question question, const Body& a, const Body& b, ts_answer& out) const {
+    const auto hit = near(a, b);
     out.claimed_tolerance = claim(a, b, margin_);
     if (question == TS_WITHIN) return kit::set_overlap(out, hit.has_value());
     if (hit) return state_distance(a, b, *hit, out);
@@ -177,7 +183,15 @@ class Engine {
   }
 
   void ask_contact(const Body& a, const Body& b, ts_answer& out, const ts_sink& sink) const {
-    const auto hit = collide(a, b, 0);
+    state_contact(a, b, collide(a, b, 0), out, sink);
+  }
+
+  void ask_contact_within(const Body& a, const Body& b, ts_answer& out, const ts_sink& sink) const {
+    state_contact(a, b, near(a, b), out, sink);
+  }
+
+  void state_contact(const Body& a, const Body& b, const std::optional<JPH::CollideShapeResult>& hit,
+                     ts_answer& out, const ts_sink& sink) const {
     const double depth = hit ? double{hit->mPenetrationDepth} : 0;
     out.claimed_tolerance = claim(a, b, depth);
     kit::set_overlap(out, hit.has_value());

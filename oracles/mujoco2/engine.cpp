@@ -36,7 +36,7 @@ Vec3 normal_of(const mjContact& c) { return kit::vec3(c.frame); }
 
 class Engine {
  public:
-  static constexpr ts_question later_questions[] = {TS_WITHIN};
+  static constexpr ts_question later_questions[] = {TS_WITHIN, TS_CONTACT_WITHIN};
   static std::vector<kit::CardText> cards() {
     kit::CardText card{
         "mujoco2",
@@ -66,14 +66,17 @@ class Engine {
 
   void ask(ts_question question, int a, int b, ts_answer& out, const ts_sink& sink) {
     if (question == TS_SCENE_CONTACTS) return ask_scene(out, sink);
-    if (question != TS_OVERLAP && question != TS_CONTACT && question != TS_WITHIN)
+    const bool of_margin = question == TS_WITHIN || question == TS_CONTACT_WITHIN;
+    if (question != TS_OVERLAP && question != TS_CONTACT && !of_margin)
       throw kit::Unsupported("MuJoCo 2.2 has no such query");
     for (const int i : {a, b})
       if (!world_->has_geom(i)) kit::no_such_shape("MuJoCo");
     if (world_->type(a) == mjGEOM_PLANE && world_->type(b) == mjGEOM_PLANE)
       throw kit::Unsupported("MuJoCo has no code for two planes");
-    if (question == TS_WITHIN) return ask_within(a, b, out);
-    ask_contact(a, b, out, question == TS_CONTACT ? &sink : nullptr);
+    const ts_sink* const of_contact =
+        question == TS_CONTACT || question == TS_CONTACT_WITHIN ? &sink : nullptr;
+    if (of_margin) return ask_within(a, b, out, of_contact);
+    ask_contact(a, b, out, of_contact);
   }
 
  private:
@@ -106,18 +109,22 @@ class Engine {
     return goes_to_mpr(world_->type(a), world_->type(b)) ? mpr_tolerance : 0;
   }
 
-  // XML reference, geom/margin: contacts are detected below this distance.
-  void ask_within(int a, int b, ts_answer& out) {
+  // XML reference, geom/margin: contacts are detected below this distance. With a sink, answers the whole
+  // contact.
+  void ask_within(int a, int b, ts_answer& out, const ts_sink* sink) {
     if (margin_ < 0) throw kit::Unsupported("a margin is not for depths");
     world_->collide_within(a, margin_);
     collided_ = false;
-    kit::set_overlap(out, !contacts_of(a, b).empty());
-    out.claimed_tolerance = claimed(a, b);
+    state_contact(a, b, out, sink);
   }
 
   /// With a sink, answers the whole contact; without one, only the overlap.
   void ask_contact(int a, int b, ts_answer& out, const ts_sink* sink) {
     if (!collided_ || world_->bodies() == 2) collide();  // a larger scene once for all its pairs
+    state_contact(a, b, out, sink);
+  }
+
+  void state_contact(int a, int b, ts_answer& out, const ts_sink* sink) const {
     const std::vector<const mjContact*> all = contacts_of(a, b);
     kit::set_overlap(out, !all.empty());
     out.claimed_tolerance = claimed(a, b);

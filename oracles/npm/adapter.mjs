@@ -112,7 +112,8 @@ export function manifold(points, is_whole) {
 }
 /**
  * The questions about a margin, for an engine with a query that finds nothing farther away than its search distance:
- * `closest(scene, a, b, reach)` is an answer to `distance`, without the distance if it finds nothing.
+ * `closest(scene, a, b, reach)` is an answer to `distance`, without the distance if it finds nothing; with the `normal`
+ * from a to b, if the engine states one.
  */
 export function margin_questions(closest) {
   const found = ({ a, b }, scene) => {
@@ -126,8 +127,15 @@ export function margin_questions(closest) {
       return { overlap: distance !== undefined, claimed_tolerance };
     },
     bounded_distance(message, scene) {
-      const { reach, ...answer } = found(message, scene);
+      const { reach, normal, ...answer } = found(message, scene);
       return { ...answer, ...(answer.distance === undefined && { lower: reach }) };
+    },
+    contact_within(message, scene) {
+      const { distance, normal, point_a, point_b, claimed_tolerance } = found(message, scene);
+      if (distance === undefined) return { overlap: false, claimed_tolerance };
+      if (!normal) throw new Unsupported("its closest points have no normal");
+      const position = point_a.map((x, k) => (x + point_b[k]) / 2);
+      return { overlap: true, normal, depth: -distance, points: [{ position, depth: -distance }], claimed_tolerance };
     },
   };
 }

@@ -36,7 +36,7 @@ export const is_of_interface = (why) =>
   why instanceof TypeError && /is not a (function|constructor)|is undefined|BigInt|of (undefined|null)/.test(why.message);
 
 const still = [0, 0, 0], upright = [0, 0, 0, 1];
-const radius = 1, speed = 4, near = 1.5, far = 3; // of the centres, along x
+const radius = 1, speed = 4, near = 1.5, within = 2.25, far = 3; // of the centres, along x
 
 const margin = 0.5;
 
@@ -58,19 +58,20 @@ const allowed = 0.15;
 const is = (x, truth) => typeof x === "number" && Math.abs(x - truth) <= allowed;
 const is_x = (v) => Array.isArray(v) && is(v[0], 1) && is(v[1], 0) && is(v[2], 0);
 const pairs_are = (answer, count) => Array.isArray(answer.pairs) && answer.pairs.length === 1 && answer.pairs[0].length === count;
+const is_contact = (distance) => (r) =>
+  r.overlap === true && (!r.normal || is_x(r.normal)) && (r.depth === undefined || is(r.depth, 2 * radius - distance));
 
 // By question: the distance of the centres, and whether the answer is right.
 const trials = {
   overlap: [[near, (r) => r.overlap === true], [far, (r) => r.overlap === false]],
   distance: [[near, (r) => is(r.distance, near - 2 * radius)], [far, (r) => is(r.distance, far - 2 * radius)]],
-  contact: [
-    [near, (r) => r.overlap === true && (!r.normal || is_x(r.normal)) && (r.depth === undefined || is(r.depth, 2 * radius - near))],
-    [far, (r) => r.overlap === false]],
+  contact: [[near, is_contact(near)], [far, (r) => r.overlap === false]],
   time_of_impact: [[far, (r) => is(r.toi, (far - 2 * radius) / speed)], [near, (r) => r.toi === 0]],
   candidates: [[near, (r) => pairs_are(r, 1)]],
   within: [[near, (r) => r.overlap === true], [far, (r) => r.overlap === false]],
   bounded_distance: [[near, (r) => is(r.distance, near - 2 * radius)],
     [far, (r) => is(r.distance ?? r.lower, far - 2 * radius) || is(r.lower, margin)]],
+  contact_within: [[near, is_contact(near)], [within, is_contact(within)], [far, (r) => r.overlap === false]],
   scene_contacts: [[near, (r) => Array.isArray(r.contacts) && r.contacts.length === 1]],
 };
 

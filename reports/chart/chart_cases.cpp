@@ -96,7 +96,8 @@ std::vector<ChartCase> margin_chart_cases(std::uint64_t seed, int per_cell, bool
         ChartCase c = pair_case(seed, cases.size(), "margin/", range.name, pair_name(a, b), "1");
         c.c.scene = at_gap(rng, s, gap);
         c.c.scene.margin = gap * mean_extent(c.c.scene) * rng.uniform(range.least, range.most);
-        c.c.queries = {{Question::within, 0, 1}, {Question::bounded_distance, 0, 1}};
+        c.c.queries = {
+            {Question::within, 0, 1}, {Question::bounded_distance, 0, 1}, {Question::contact_within, 0, 1}};
         cases.push_back(std::move(c));
       }
   return cases;

@@ -9,6 +9,8 @@ namespace touchstone::fuzz {
 namespace {
 
 const std::vector<Question> of_pairs{Question::overlap, Question::distance, Question::contact};
+const std::vector<Question> of_margins{Question::within, Question::bounded_distance,
+                                       Question::contact_within};
 
 // The n values 2^first, 2^(first+step), …
 std::vector<double> powers(int first, int step, int n) {
@@ -34,6 +36,15 @@ Scene scale(Rng& rng, double v) { return placed(rng, convex_pair(rng, v, Vec3::Z
 Scene offset(Rng& rng, double v) {
   const Vec3 origin = rng.unit_vector() * v;
   return placed(rng, convex_pair(rng, 1, origin), 0.125);
+}
+
+// Apart by a quarter of the margin up to a quarter more than it.
+Scene margin(Rng& rng, double v) {
+  Scene s = convex_pair(rng, 1, Vec3::Zero());
+  const double apart = v * rng.uniform(0.25, 1.25);
+  s = at_gap(rng, std::move(s), apart);
+  s.margin = v * mean_extent(s);
+  return s;
 }
 
 // A plate or a rod next to a body of ordinary proportions.
@@ -144,6 +155,7 @@ Scene steps(Rng& rng, double v) {
 
 const LadderRow rows[] = {
     {"gap", "gap or depth of convex pairs of size 1", "sizes", powers(-4, -6, 9), of_pairs, gap},
+    {"margin", "margin of convex pairs about as far apart", "sizes", powers(0, -5, 9), of_margins, margin},
     {"scale", "size of the bodies, gap an eighth of it", "units", powers(0, -8, 8), of_pairs, scale},
     {"offset", "distance from the origin of pairs of size 1", "sizes", powers(0, 6, 8), of_pairs, offset},
     {"aspect", "length over thickness of a plate or rod", "", powers(1, 4, 8), of_pairs, aspect},

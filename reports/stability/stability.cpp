@@ -40,8 +40,10 @@ double number_of(const Query& q, const Observation& o) {
   if (o.outcome != Outcome::answered) return nan;
   switch (q.question) {
     case Question::distance:
+    case Question::bounded_distance:
       return o.distance.value_or(nan);
     case Question::contact:
+    case Question::contact_within:
       return o.overlap && *o.overlap ? o.depth.value_or(nan) : nan;
     case Question::time_of_impact:
       return o.toi.value_or(nan);

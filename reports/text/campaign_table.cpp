@@ -25,7 +25,7 @@ struct Column {
 constexpr auto question_columns =
     std::to_array<Column>({{Question::overlap, "overlap", Question::within},
                            {Question::distance, "dist", Question::bounded_distance},
-                           {Question::contact, "contact"},
+                           {Question::contact, "contact", Question::contact_within},
                            {Question::time_of_impact, "impact", Question::ray},
                            {Question::candidates, "pairs", Question::candidates_within},
                            {Question::scene_contacts, "scene"},

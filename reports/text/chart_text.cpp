@@ -125,8 +125,8 @@ std::string chart_text(const fuzz::Chart& c) {
       "Errors are measured by the referee and divided by the scale L. * on the Pareto front (time p50, error "
       "p99), ~ on it but tied within noise, o wrong somewhere.\n";
   s = wrapped(s, 79, 0) + "\n";
-  for (const char* q :
-       {"overlap", "distance", "contact", "within", "bounded_distance", "ray", "time_of_impact"})
+  for (const char* q : {"overlap", "distance", "contact", "within", "bounded_distance", "contact_within",
+                        "ray", "time_of_impact"})
     if (const std::string table = question_table(c, q); !table.empty()) s += table + fronts(c, q);
   s += crowds(c) + reasons(c);
   double spread = 0;

@@ -99,9 +99,10 @@ std::string stated(const Query& q, const Observation& o) {
       if (o.lower_bound || o.upper_bound) return bounds_text(o);
       return !o.overlap ? "-" : *o.overlap ? "overlap, no distance" : "apart, no distance";
     case Question::contact:
+    case Question::contact_within:
       if (!o.overlap) return "-";
-      if (!*o.overlap) return "apart";
-      s = "overlap";
+      if (!*o.overlap) return q.question == Question::contact ? "apart" : "beyond";
+      s = q.question == Question::contact ? "overlap" : "within";
       if (o.depth) s += fmt::format(", depth {:.9g}", *o.depth);
       if (o.normal) s += fmt::format(", n {}", vec(*o.normal));
       return s + fmt::format(", {} points", o.manifold.size());
@@ -214,6 +215,7 @@ std::string referee_lines(const Query& q, const fuzz::RefereeAnswer& r) {
     case Question::contact:
     case Question::within:
     case Question::bounded_distance:
+    case Question::contact_within:
       break;
   }
   const bool has_gap = std::isfinite(r.gap[0]);
@@ -222,7 +224,7 @@ std::string referee_lines(const Query& q, const fuzz::RefereeAnswer& r) {
   if (has_gap) s += fmt::format(", signed distance {}", bracket(r.gap));
   if (r.verdict == "undecided" && !r.note.empty()) s += "; " + r.note;
   s += "\n";
-  if (q.question == Question::contact && r.verdict == "overlap" && has_gap)
+  if (is_contact_question(q.question) && r.verdict == "overlap" && has_gap)
     return s + fmt::format("    depth is least along n = {}\n", vec(r.normal)) +
            certificate_lines(r.depth_certificate);
   return s + certificate_lines(r.verdict_certificate);

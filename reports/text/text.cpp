@@ -86,7 +86,7 @@ namespace {
 // Names short enough for the table's column.
 constexpr auto short_names =
     std::to_array<std::string_view>({"overlap", "distance", "contact", "impact", "pairs", "scene", "swept",
-                                     "within", "bounded", "near", "ray"});
+                                     "within", "bounded", "near", "ray", "c.margin"});
 static_assert(short_names.size() == question_names.size());
 
 // A time that includes the pipe is marked.

@@ -101,7 +101,10 @@ void place_anyhow(Rng& rng, Scene& s) {
   s = at_gap(rng, std::move(s), gap);
 }
 
-void ask_margin(Case& c) { c.queries = {{Question::within, 0, 1}, {Question::bounded_distance, 0, 1}}; }
+void ask_margin(Case& c) {
+  c.queries = {
+      {Question::within, 0, 1}, {Question::bounded_distance, 0, 1}, {Question::contact_within, 0, 1}};
+}
 
 }  // namespace
 

@@ -27,12 +27,13 @@ enum class Question : std::uint8_t {
   within,             // is the signed distance at most the scene's margin?
   bounded_distance,   // the signed distance, or a lower bound of it that is at least the scene's margin
   candidates_within,  // as candidates: pairs whose signed distance is at most the scene's margin, >= 0
-  ray                 // b, a sphere of radius 0, moves in a straight line: where it meets a at rest
+  ray,                // b, a sphere of radius 0, moves in a straight line: where it meets a at rest
+  contact_within      // as contact, of bodies whose signed distance is at most the scene's margin
 };
 inline constexpr auto question_names = std::to_array<std::string_view>(
     {"overlap", "distance", "contact", "time_of_impact", "candidates", "scene_contacts", "swept_candidates",
-     "within", "bounded_distance", "candidates_within", "ray"});
-static_assert(question_names.size() == static_cast<std::size_t>(Question::ray) + 1);
+     "within", "bounded_distance", "candidates_within", "ray", "contact_within"});
+static_assert(question_names.size() == static_cast<std::size_t>(Question::contact_within) + 1);
 constexpr std::string_view to_string(Question q) { return question_names[static_cast<std::size_t>(q)]; }
 constexpr std::optional<Question> question_from_string(std::string_view s) {
   for (std::size_t i = 0; i < question_names.size(); ++i)
@@ -41,7 +42,11 @@ constexpr std::optional<Question> question_from_string(std::string_view s) {
 }
 constexpr bool is_pair_question(Question q) {
   return q <= Question::time_of_impact || q == Question::within || q == Question::bounded_distance ||
-         q == Question::ray;
+         q == Question::ray || q == Question::contact_within;
+}
+/// Questions about the normal, the depth and the points of a pair.
+constexpr bool is_contact_question(Question q) {
+  return q == Question::contact || q == Question::contact_within;
 }
 constexpr bool is_broad_question(Question q) {
   return q == Question::candidates || q == Question::swept_candidates || q == Question::candidates_within;
@@ -56,7 +61,8 @@ constexpr bool is_script_question(Question q) {
 }
 /// Questions that refer to the scene's margin.
 constexpr bool is_margin_question(Question q) {
-  return q == Question::within || q == Question::bounded_distance || q == Question::candidates_within;
+  return q == Question::within || q == Question::bounded_distance || q == Question::candidates_within ||
+         q == Question::contact_within;
 }
 
 struct Query {

@@ -33,8 +33,9 @@ struct SceneContact {
 struct Observation {
   Outcome outcome = Outcome::unsupported;
   std::string detail;
-  std::optional<bool> overlap;     // of `within`: whether the signed distance is at most the margin
-  std::optional<double> distance;  // signed
+  /// Of `within` and `contact_within`: whether the signed distance is at most the margin.
+  std::optional<bool> overlap;
+  std::optional<double> distance;                  // signed
   std::optional<double> lower_bound, upper_bound;  // of the signed distance
   std::optional<std::array<Vec3, 2>> witness;
   std::optional<Vec3> normal;  // A to B; of `ray`: of A's surface where it is hit, pointing out of A
@@ -43,7 +44,7 @@ struct Observation {
   /// world axes.
   std::optional<Vec3> moment;
   std::optional<bool> unique_gradient;  // whether the signed distance has no other gradient (truth.md §2)
-  std::optional<double> depth;
+  std::optional<double> depth;  // of `contact_within`, negative for bodies that are apart, as of its points
   std::vector<ManifoldPoint> manifold;
   std::optional<double> toi;  // empty when time_of_impact or ray is answered: "no hit"
   std::vector<std::vector<BodyPair>>

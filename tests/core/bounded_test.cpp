@@ -118,3 +118,67 @@ TEST_CASE("half-spaces have no bound along a line and are measured", "[core][bou
   CHECK(r.distance->distance == 3.5);
   CHECK(!within(ground, above, 1).within);
 }
+
+TEST_CASE("a contact within a margin: the verdict of within, the normal and minus the distance",
+          "[core][bounded]") {
+  int apart = 0, overlapping = 0, beyond = 0;
+  for_each_pair(2000, [&](const Pair& p, double l) {
+    const DistanceAnswer d = distance(p.a, p.b);
+    if (d.outcome != Outcome::answered || is_mesh(*p.a.shape) || is_mesh(*p.b.shape)) return;
+    for (const double more : {-0.25, 0.25, 2.0}) {
+      const double margin = d.distance + more * std::abs(d.distance);
+      const ContactAnswer r = contact_within(p.a, p.b, margin);
+      REQUIRE(r.outcome == Outcome::answered);
+      if (margin != 0) REQUIRE(r.overlap == within(p.a, p.b, margin).within);
+      if (!r.overlap) {
+        ++beyond;
+        CHECK(r.manifold.empty());
+        continue;
+      }
+      (d.distance > 0 ? apart : overlapping) += 1;
+      CHECK(std::abs(r.depth + d.distance) <= 4 * tau * l);
+      REQUIRE(!r.manifold.empty());
+      for (const ContactPoint& x : r.manifold) {
+        CHECK(x.depth <= r.depth + 4 * tau * l);
+        CHECK(x.depth >= -margin - 4 * tau * l);
+      }
+    }
+  });
+  CHECK(apart > 500);
+  CHECK(overlapping > 500);
+  CHECK(beyond > 500);
+}
+
+TEST_CASE("boxes apart by less than a margin have the corners of the region between their faces",
+          "[core][bounded]") {
+  const Shape floor = Box{{4, 4, 1}}, box = Box{{1, 0.5, 1}};
+  const double gap = 0.125;
+  const Pose above{{0.25, 0, 2 + gap}, {}};
+  const ContactAnswer level = contact_within({&floor, Pose{}}, {&box, above}, 0.25);
+  REQUIRE(level.manifold.size() == 4);
+  CHECK(level.normal == Vec3(0, 0, 1));
+  for (const ContactPoint& p : level.manifold) {
+    CHECK(p.depth == -gap);
+    CHECK(std::abs(p.position.z() - (1 + gap / 2)) < 1e-15);
+    CHECK(std::abs(std::abs(p.position.x() - 0.25) - 1) < 1e-15);
+    CHECK(std::abs(std::abs(p.position.y()) - 0.5) < 1e-15);
+  }
+  // Leaning by 0.1: the lower two corners are within the smaller margin.
+  const Quat lean{0, std::sin(0.05), 0, std::cos(0.05)};
+  const double low = std::sin(0.1), rise = 2 * std::sin(0.1);
+  const Pose leaning{{0, 0, 1 + gap + std::cos(0.1) + low}, lean};
+  const auto near = [&](double margin) {
+    return contact_within({&floor, Pose{}}, {&box, leaning}, margin).manifold;
+  };
+  CHECK(near(gap / 2).empty());
+  CHECK(near(gap + rise / 2).size() == 2);
+  const Manifold all = near(gap + rise + 0.01);
+  REQUIRE(all.size() == 4);
+  double least = 1, most = -1;
+  for (const ContactPoint& p : all) {
+    least = std::min(least, p.depth);
+    most = std::max(most, p.depth);
+  }
+  CHECK(std::abs(most + gap) < 1e-12);
+  CHECK(std::abs(least + gap + rise) < 1e-12);
+}

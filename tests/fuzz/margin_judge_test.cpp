@@ -104,6 +104,54 @@ TEST_CASE("within a margin: an answer needs a verdict, and the error is the dist
   CHECK(std::abs(j.faults[0].error - 0.1) < 1e-12);
 }
 
+TEST_CASE("a contact within a margin has minus the distance as its depth", "[judge][margin]") {
+  const auto judged = [](double distance, double margin, double depth, const Vec3& normal, const Vec3& point,
+                         double depth_of_point) {
+    Observation o = says_within(true);
+    o.normal = normal;
+    o.depth = depth;
+    o.manifold = {{point, depth_of_point}};
+    return judge_one(spheres(distance, margin, Question::contact_within), o);
+  };
+  const Vec3 x(1, 0, 0);
+  CHECK(judged(2.5, 0.75, -0.5, x, {1.25, 0, 0}, -0.5).right());
+  CHECK(judged(2.5, 0.75, -0.5, x, {1, 0, 0}, -0.5).right());
+  CHECK(judged(2.5, 0.75, -0.5, x, {1.5, 0, 0}, std::nan("")).right());
+  CHECK(has(judged(2.5, 0.4, -0.5, x, {1.25, 0, 0}, -0.5), Fault::ghost));
+  CHECK(has(judged(2.5, 0.75, 0, x, {1.25, 0, 0}, -0.5), Fault::depth_excess));
+  CHECK(has(judged(2.5, 0.75, -0.6, x, {1.25, 0, 0}, -0.6), Fault::infeasible));
+  CHECK(has(judged(2.5, 0.75, -0.5, -x, {1.25, 0, 0}, -0.5), Fault::not_minimal));
+  CHECK(has(judged(2.5, 0.75, -0.5, {0.8, 0.6, 0}, {1.25, 0, 0}, -0.5), Fault::not_minimal));
+  CHECK(has(judged(2.5, 0.75, -0.5, x, {1.25, 0, 0}, -0.4), Fault::point_depth));
+  CHECK(has(judged(2.5, 0.75, -0.5, x, {2.25, 0, 0}, -0.5), Fault::point_off));
+  CHECK(has(judged(2.5, 0.75, -0.5, x, {1.25, 1, 0}, -0.5), Fault::point_off));
+  // Of bodies that overlap, a contact like any other; a negative margin allows some depth.
+  CHECK(judged(1.5, 0.25, 0.5, x, {0.75, 0, 0}, 0.5).right());
+  CHECK(judged(1.5, -0.25, 0.5, x, {0.75, 0, 0}, 0.5).right());
+  CHECK(has(judged(1.5, -0.75, 0.5, x, {0.75, 0, 0}, 0.5), Fault::ghost));
+  CHECK(has(judged(1.5, 0.25, -0.5, x, {0.75, 0, 0}, 0.5), Fault::infeasible));
+  CHECK(judge_one(spheres(2.5, 0.25, Question::contact_within), says_within(false)).right());
+  CHECK(has(judge_one(spheres(2.5, 0.75, Question::contact_within), says_within(false)), Fault::missed));
+}
+
+TEST_CASE("a surface that is apart has a depth, and a normal that is not judged", "[judge][margin]") {
+  Case c = spheres(0, 0.5, Question::contact_within);
+  TriangleMesh m;
+  m.vertices = {{-4, -4, 0}, {4, -4, 0}, {0, 8, 0}};
+  m.triangles = {{0, 1, 2}};
+  c.scene.shapes.push_back(m);
+  c.scene.bodies[0].shape = 1;
+  c.scene.bodies[1].pose.translation = {0, 0, 1.25};
+  Observation o = says_within(true);
+  o.depth = -0.25;
+  CHECK(judge_one(c, o).right());
+  o.depth = -0.3;
+  CHECK(has(judge_one(c, o), Fault::infeasible));
+  o.depth = -0.25;
+  o.normal = Vec3(0, 0, 1);
+  CHECK(judge_one(c, o).ruling() == Ruling::not_judged);
+}
+
 TEST_CASE("a mesh has no depth to compare with a negative margin", "[judge][margin]") {
   Case c = spheres(0, -0.1, Question::within);
   TriangleMesh m;

@@ -76,7 +76,8 @@ void fill(const Observation& o, ts_answer& out, const ts_sink& sink) {
 
 class Plugin {
  public:
-  static constexpr ts_question later_questions[] = {TS_WITHIN, TS_CANDIDATES_WITHIN, TS_RAY};
+  static constexpr ts_question later_questions[] = {TS_WITHIN, TS_CANDIDATES_WITHIN, TS_RAY,
+                                                    TS_CONTACT_WITHIN};
   static std::vector<kit::CardText> cards() {
     std::vector<kit::CardText> all;
     for (const Mutant& m : mutants()) {

@@ -18,6 +18,7 @@ std::vector<Mutant> manifold_lies();
 std::vector<Mutant> impact_lies();
 std::vector<Mutant> gradient_lies();
 std::vector<Mutant> margin_lies();  // margins, bounds, rays
+std::vector<Mutant> margin_contact_lies();
 std::vector<Mutant> swept_lies();   // the broad phase of a step
 std::vector<Mutant> outcome_lies();
 std::vector<Mutant> scene_lies();

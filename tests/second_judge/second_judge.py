@@ -135,8 +135,8 @@ def distance_errors(pair, answer):
     return found
 
 
-def normal_errors(pair, normal, depth):
-    """Judges a reported normal and depth; the depth may be absent."""
+def normal_errors(pair, normal, depth, apart=False):
+    """Judges a reported normal and depth; the depth may be absent. apart: of bodies within a margin, with a negative depth."""
     if not finite(normal) or not any(normal):
         return {"normal_not_unit": (FAR, FAR)}
     n = exact(normal)
@@ -156,7 +156,7 @@ def normal_errors(pair, normal, depth):
         elif depth < 0:
             found["infeasible"] = (F(-depth), F(-depth))
     if solid:
-        least = (max(-pair.gap[1], F(0)), max(-pair.gap[0], F(0)))
+        least = (-pair.gap[1], -pair.gap[0]) if apart else (max(-pair.gap[1], F(0)), max(-pair.gap[0], F(0)))
         found["not_minimal"] = (w[0] - least[1], w[1] - least[0])
     return found
 
@@ -183,6 +183,23 @@ def contact_errors(pair, answer):
         found["point_depth"] = (F(max(depths)) - w[1] if w else -FAR, FAR)  # the depth on its own line is not asked here
     if answer.get("depth") is not None and pair.gap[1] < 0 and answer.get("normal") is None and not pair.surface():
         found["depth_off"] = off((-pair.gap[1], -pair.gap[0]), F(answer["depth"]))
+    return found
+
+
+def near_contact_errors(pair, margin, answer):
+    """A contact of bodies that may be apart by the margin. Where they are, a point lies within their distance there of both."""
+    found = within_errors(pair, margin, answer["overlap"])
+    if not answer["overlap"] or pair.gap[0] <= 0:
+        return {**contact_errors(pair, {**answer, "overlap": None}), **found} if answer["overlap"] else found
+    depth = answer.get("depth")
+    if pair.surface():
+        if depth is not None and math.isfinite(depth):
+            found["infeasible"] = (-pair.gap[1] - F(depth), -pair.gap[0] - F(depth))
+            found["depth_excess"] = (F(depth) + pair.gap[0], F(depth) + pair.gap[1])
+    elif answer.get("normal") is not None:
+        found.update(normal_errors(pair, answer["normal"], depth, apart=True))
+    points = [{**p, "depth": abs(p["depth"]) if p.get("depth") is not None else None} for p in answer.get("manifold", [])]
+    found.update(point_errors(pair, points, float(pair.gap[1])))
     return found
 
 
@@ -285,6 +302,8 @@ def errors(scene, question, a, b, answer, tau, certificate):
         return verdict_errors(pair, answer["overlap"])
     if question == "within":
         return within_errors(pair, F(scene.get("margin", 0)), answer["overlap"])
+    if question == "contact_within":
+        return near_contact_errors(pair, F(scene.get("margin", 0)), answer)
     if question == "bounded_distance":
         return distance_errors(pair, answer) | bound_errors(pair, answer)
     return (distance_errors if question == "distance" else contact_errors)(pair, answer)

@@ -216,14 +216,17 @@ R edge_radius(const ConvexBody<R>& c) {
 
 }  // namespace detail
 
-/// Manifold of cores a, b (b at `at`; null: a half-space) along n (A's frame, unit, A to B), where `gap` <= 0
-/// up to rounding is the gap of the rounded bodies along n. size 0: too many corners for the storage.
+/// Manifold of cores a, b (b at `at`; null: a half-space) along n (A's frame, unit, A to B), where `gap` is
+/// the gap of the rounded bodies along n, at most `margin` up to rounding: what is no farther apart along n
+/// than the margin, with negative depths of what is apart. size 0: too many corners for the storage.
 template <class R>
 Patch<R> contact_patch(const ConvexBody<R>& a, const ConvexBody<R>* b, const Relative<R>& at, const V3<R>& n,
-                       R gap, const V3<R>* middle) {
+                       R gap, R margin, const V3<R>* middle) {
   using namespace detail;
   const R size = a.reach + a.radius + (b ? b->reach + b->radius + at.offset.norm() : 0);
-  const R tolerance = rounding::corner_distance * u<R> * size, depth = std::max<R>(0, -gap);
+  const R tolerance = rounding::corner_distance * u<R> * size;
+  // How far B would reach into A if it were nearer by the margin; the depth of the deepest point.
+  const R depth = std::max<R>(0, margin - gap), deepest = std::max<R>(-margin, -gap);
   PatchPlane<R> plane(n);
   const V3<R> top_a = support_local<R>(a, n);
   const V3<R> top_b = b ? support_local<R>(*b, V3<R>(at.b_to_a.transpose() * -n)) : top_a;
@@ -313,7 +316,7 @@ Patch<R> contact_patch(const ConvexBody<R>& a, const ConvexBody<R>* b, const Rel
     const R d = -gap - below_a - below_b;
     for (int k = 0; k < patch.size; ++k)
       if ((patch.point[static_cast<std::size_t>(k)].p - p).squaredNorm() <= same * same) return k;
-    patch.point[static_cast<std::size_t>(patch.size)] = {p, std::max<R>(0, d), id};
+    patch.point[static_cast<std::size_t>(patch.size)] = {p, std::max<R>(-margin, d), id};
     return patch.size++;
   };
   // Height of A's support plane above plane.origin is the ball's radius.
@@ -324,7 +327,7 @@ Patch<R> contact_patch(const ConvexBody<R>& a, const ConvexBody<R>* b, const Rel
   }
   // Without a region the deepest point alone; and corners that represent a rim may all be less deep than the
   // rim between them.
-  const auto less_deep = [&](const PatchPoint<R>& p) { return p.depth < depth - tolerance; };
+  const auto less_deep = [&](const PatchPoint<R>& p) { return p.depth < deepest - tolerance; };
   // Of the body with the smaller ball, on whose surface a lateral error counts most.
   const auto middle_on_foot = [&] {
     if (!b || a.radius + b->radius == 0) return *middle;
@@ -346,7 +349,7 @@ Patch<R> contact_patch(const ConvexBody<R>& a, const ConvexBody<R>* b, const Rel
   };
   if (middle && std::all_of(patch.point.begin(), patch.point.begin() + patch.size, less_deep) &&
       patch.size < Patch<R>::capacity)
-    patch.point[static_cast<std::size_t>(patch.size++)] = {middle_on_foot(), depth, 0};
+    patch.point[static_cast<std::size_t>(patch.size++)] = {middle_on_foot(), deepest, 0};
   // Not of the distance between the bodies, with which it would change as they move.
   const R own_size = a.reach + a.radius + (b ? b->reach + b->radius : 0);
   const R near = std::min<R>(depth / 2, static_cast<R>(tolerance::manifold_region_factor) * own_size);

@@ -225,7 +225,7 @@ bool in_box(const V3<R>& p, const V3<R>& h, R tolerance) {
 // Deepest points of two overlapping boxes, from their manifold; false if it does not contain them.
 template <class R>
 bool box_witnesses(const BoxPair<R>& p, PairScene<R>& s, Answer<R>& r) {
-  const Patch<R> patch = contact_patch<R>(s.a, &s.b, s.at, s.normal, r.gap, nullptr);
+  const Patch<R> patch = contact_patch<R>(s.a, &s.b, s.at, s.normal, r.gap, 0, nullptr);
   if (patch.size == 0) return false;
   std::size_t best = 0;
   for (std::size_t i = 1; i < static_cast<std::size_t>(patch.size); ++i)

@@ -192,4 +192,21 @@ void check_contact(const CheckInput& in, CheckOutput& out) {
   judge_normal_and_depth(in, out, stated, truth);
 }
 
+// The verdict is that of `within`; the rest is a contact whose depth is minus the distance of bodies that are
+// apart. A surface that is apart from a body has that depth too, but no support plane to judge a normal by.
+void check_contact_within(const CheckInput& in, CheckOutput& out) {
+  check_within(in, out);
+  if (!in.answer.overlap || !*in.answer.overlap) return;
+  const StatedContact stated{in.query.a, in.query.b, in.answer.normal, in.answer.depth};
+  if (!judge_validity(in, out, stated)) return;
+  const referee::PairTruth& truth = in.truth.pair(in.frame, stated.a, stated.b);
+  if (truth.verdict != referee::Verdict::overlap) out.frame_matters();
+  const double tau = in.tau(in.truth.scale(stated.a, stated.b));
+  if (truth.verdict == referee::Verdict::undecided || truth.gap.lo > tau + in.offset()) return;
+  const bool is_flat = !in.is_surface(stated.a) && !in.is_surface(stated.b);
+  if (is_flat || !is_speculative(in, truth)) return judge_normal_and_depth(in, out, stated, truth);
+  if (stated.depth) judge_depth_alone(in, out, stated, truth);
+  if (stated.normal) out.not_judged("the normal of a surface that is apart", true);
+}
+
 }  // namespace touchstone::fuzz

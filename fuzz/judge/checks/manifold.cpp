@@ -61,17 +61,17 @@ class LineThroughBody {
 };
 
 // How much deeper than possible the point claims to be: on the line through it along the normal, A must reach
-// that far ahead of B. Each body is taken within τ. Where the line misses a body no depth is possible. 0:
-// possible.
+// that far ahead of B, or, for a negative depth, be no farther than that from it. Each body is taken within
+// τ. Where the line misses a body no depth is possible. 0: possible.
 double too_deep(const CheckInput& in, const ManifoldPoint& p, const Vec3& n, double tau) {
   const auto [a, b] = std::pair{in.query.a, in.query.b};
   const LineThroughBody ahead(in, a, p.position, n, tau), behind(in, b, p.position, -n, tau);
   // Engines place points on B, on A or half-way.
   for (const double s : {p.depth / 2, 0.0, p.depth})
     if (ahead.is_near(s) && behind.is_near(p.depth - s)) return 0;
-  const double range = 4 * (p.depth + in.truth.scale(a, b));
+  const double depth = std::abs(p.depth), range = 4 * (depth + in.truth.scale(a, b));
   const auto last = ahead.last(range), first = behind.last(range);
-  return !last || !first ? p.depth : std::max(0.0, p.depth - (*last + *first));
+  return !last || !first ? depth : std::max(0.0, p.depth - (*last + *first));
 }
 
 // The depth of each point must never exceed what its normal needs as a whole; for manifolds claimed to be
@@ -82,7 +82,9 @@ void check_point_depths(const CheckInput& in, CheckOutput& out, double l, double
   const Vec3& n = *in.answer.normal;
   if (!(std::abs(n.stableNorm() - 1) < 0.5)) return;  // another fault
   const auto [a, b] = std::pair{in.query.a, in.query.b};
-  const double most = std::max(0.0, in.truth.width(in.frame, a, b, n).hi);
+  // Bodies within a margin have negative depths where they are apart.
+  const bool within = in.query.question == Question::contact_within;
+  const double width = in.truth.width(in.frame, a, b, n).hi, most = within ? width : std::max(0.0, width);
   const bool surface = in.is_mesh(a) || in.is_mesh(b) || !std::isfinite(truth.gap.lo);
   for (const ManifoldPoint& p : in.answer.manifold) {
     if (std::isnan(p.depth)) continue;  // not stated
@@ -90,7 +92,8 @@ void check_point_depths(const CheckInput& in, CheckOutput& out, double l, double
       return out.fault_always(Fault::no_number, 0, in.query, "the depth of a manifold point is infinite");
     const bool told_apart = in.card.complete_manifolds && !surface && in.answer.manifold.size() > 1;
     double error = p.depth - most;
-    if (told_apart && error <= tau && p.depth > tau) error = std::max(error, too_deep(in, p, n, tau));
+    if (told_apart && error <= tau && (within || p.depth > tau))
+      error = std::max(error, too_deep(in, p, n, tau));
     out.error(error, l, tau);
     if (error > tau)
       return out.fault(
@@ -147,12 +150,15 @@ void check_manifold(const CheckInput& in, CheckOutput& out) {
   const double of_contact = std::max(of_gap, positive_or_zero(in.answer.depth.value_or(0)));
   double worst = 0;
   for (const ManifoldPoint& p : in.answer.manifold) {
-    const double inflate = std::max(of_contact, positive_or_zero(p.depth));
+    const double apart = std::min(positive_or_zero(-p.depth), in.offset());
+    const double inflate = std::max({of_contact, positive_or_zero(p.depth), apart});
     worst = std::max({worst, in.truth.distance_to(in.frame, a, p.position, tau + inflate).lo - inflate,
                       in.truth.distance_to(in.frame, b, p.position, tau + inflate).lo - inflate});
   }
   out.error(worst, l, tau);
-  const bool has_region = truth.verdict == referee::Verdict::overlap && std::isfinite(truth.gap.lo);
+  const bool within = in.query.question == Question::contact_within;
+  const bool has_region =
+      (within || truth.verdict == referee::Verdict::overlap) && std::isfinite(truth.gap.lo);
   if (has_region) measure_coverage(in, out, truth);
   if (worst > tau)
     out.fault(Fault::point_off, worst, l, in.query,

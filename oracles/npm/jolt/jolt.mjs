@@ -122,7 +122,8 @@ const claim = (scene, a, b, depth = 0) =>
 // First without a search distance, which would spoil shallow depths.
 function closest(scene, a, b, reach) {
   const hit = collide(scene, a, b, 0) || collide(scene, a, b, reach);
-  const found = hit && { distance: -hit.mPenetrationDepth, point_a: list(hit.mContactPointOn1), point_b: list(hit.mContactPointOn2) };
+  const found = hit && { distance: -hit.mPenetrationDepth, point_a: list(hit.mContactPointOn1), point_b: list(hit.mContactPointOn2),
+    normal: unit(list(hit.mPenetrationAxis)) };
   sweep();
   return { ...found, claimed_tolerance: claim(scene, a, b, found?.distance ?? (reach === any ? 0 : reach)) };
 }
@@ -195,7 +196,7 @@ const engine = {
     return { ...answer, claimed_tolerance: claim(scene, a, b, depth) };
   },
   distance({ a, b }, scene) {
-    const answer = closest(scene, a, b, any);
+    const { normal, ...answer } = closest(scene, a, b, any);
     if (answer.distance === undefined) throw new kit.Unsupported("Jolt found no closest points");
     return answer;
   },

@@ -129,9 +129,11 @@ function answer_of(scene, found, a, b) {
     normal: c.geom[0] === a ? c.normal : c.normal.map((x) => -x) }));
   const smooth = kinds(scene, a, b).some((k) => k === "sphere" || k === "ellipsoid");
   const is_whole = !is_convex_pair(scene, a, b) || how !== "" || smooth || found.length > 1 && rotated;
-  const claimed_tolerance = contact_claim(scene, a, b, deepest_of(found).distance * -1);
+  const claimed_tolerance = contact_claim(scene, a, b, Math.max(0, -deepest_of(found).distance));
   return { overlap: true, ...kit.manifold(all, is_whole), claimed_tolerance };
 }
+const contact_of = (scene, found, a, b) =>
+  found.length > 0 ? answer_of(scene, found, a, b) : { overlap: false, claimed_tolerance: contact_claim(scene, a, b) };
 const from_to = new mj.DoubleBuffer(6);
 
 function closest(scene, a, b, reach) {
@@ -142,6 +144,20 @@ function closest(scene, a, b, reach) {
   if (distance >= reach) return { claimed_tolerance };
   if (points.every((x) => x === 0)) return { distance, claimed_tolerance }; // it has written none
   return { distance, point_a: points.slice(0, 3), point_b: points.slice(3), claimed_tolerance };
+}
+
+// XMLreference, body/geom/margin: contacts are detected below this distance. Of two geoms' margins one is 0, so that it
+// does not matter how MuJoCo combines them.
+function near_contacts(scene, a, b) {
+  require_collider(scene, a, b);
+  if ((scene.margin ?? 0) < 0) throw new kit.Unsupported("a margin is not for depths");
+  const margins = model.geom_margin;
+  margins[a] = scene.margin ?? 0;
+  try {
+    return contacts(a, b);
+  } finally {
+    margins[a] = 0;
+  }
 }
 
 const engine = {
@@ -173,27 +189,18 @@ const engine = {
   },
   contact({ a, b }, scene) {
     require_collider(scene, a, b);
-    const found = contacts(a, b);
-    return found.length > 0 ? answer_of(scene, found, a, b) : { overlap: false, claimed_tolerance: contact_claim(scene, a, b) };
+    return contact_of(scene, contacts(a, b), a, b);
   },
   distance({ a, b }, scene) {
     const answer = closest(scene, a, b, farthest);
     if (answer.distance === undefined) throw new kit.Unsupported(`MuJoCo finds no distance below ${farthest}`);
     return answer;
   },
-  // XMLreference, body/geom/margin: contacts are detected below this distance. Of two geoms' margins one is 0, so that
-  // it does not matter how MuJoCo combines them.
   within({ a, b }, scene) {
-    require_collider(scene, a, b);
-    if ((scene.margin ?? 0) < 0) throw new kit.Unsupported("a margin is not for depths");
-    const margins = model.geom_margin;
-    margins[a] = scene.margin ?? 0;
-    try {
-      return { overlap: contacts(a, b).length > 0, claimed_tolerance: contact_claim(scene, a, b) };
-    } finally {
-      margins[a] = 0;
-    }
+    return { overlap: near_contacts(scene, a, b).length > 0, claimed_tolerance: contact_claim(scene, a, b) };
   },
+  // mjmodel.h, mjContact.dist: the distance between the nearest points.
+  contact_within: ({ a, b }, scene) => contact_of(scene, near_contacts(scene, a, b), a, b),
   bounded_distance: kit.margin_questions(closest).bounded_distance, // mujoco.h, mj_geomDistance, distmax
   scene_contacts(_, scene) {
     const drops = kit.filter_of(scene), pairs = new Map(), planes = [...scene.bodies.keys()].filter((k) =>

@@ -43,10 +43,11 @@ function gjk_claim(scene, a, b, separation = 0) {
   return iteration_share * support_margin + core_share * Math.abs(separation + sum(radius_of))
     + degenerate_share * sum(core_size) + cooking_claim(scene, a, b);
 }
+const normal_of = (c) => list(c.separatingAxis).map((x) => -x);
 function closest(scene, a, b, reach) {
   const c = proximity(scene, a, b, reach);
   if (!c) return { claimed_tolerance: gjk_claim(scene, a, b, reach) };
-  return { distance: c.separation, point_a: list(c.pointA), point_b: list(c.pointB),
+  return { distance: c.separation, point_a: list(c.pointA), point_b: list(c.pointB), normal: normal_of(c),
     claimed_tolerance: gjk_claim(scene, a, b, c.separation) };
 }
 export const supports = {
@@ -59,10 +60,10 @@ export const supports = {
   contact({ a, b }, scene) {
     const c = proximity(scene, a, b, 0), claimed_tolerance = gjk_claim(scene, a, b, c ? c.separation : 0);
     if (!c || c.separation > 0) return { overlap: false, claimed_tolerance };
-    return { overlap: true, normal: list(c.separatingAxis).map((x) => -x), depth: -c.separation, claimed_tolerance };
+    return { overlap: true, normal: normal_of(c), depth: -c.separation, claimed_tolerance };
   },
   distance({ a, b }, scene) {
-    const answer = closest(scene, a, b, unlimited);
+    const { normal, ...answer } = closest(scene, a, b, unlimited);
     return answer.distance === undefined ? { outcome: "not_converged", detail: "proximityInfo returned false" } : answer;
   },
   ...kit.margin_questions(closest), // PxGjkQuery.h, proximityInfo, contactDistance

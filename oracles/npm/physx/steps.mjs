@@ -136,6 +136,15 @@ function touching(scene, a, b, margin = 0) {
   if ([a, b].every((body) => is_fixed(shape_of(scene, body)))) throw new kit.Unsupported("PhysX reports no contacts of two planes");
   return contact_points(scene, a, b, margin).filter((p) => p.depth >= -margin);
 }
+function near_points(scene, a, b) {
+  if (!(scene.margin > 0)) throw new kit.Unsupported("contact offsets are positive");
+  return touching(scene, a, b, scene.margin);
+}
+function contact_of(scene, a, b, points) {
+  const claimed_tolerance = step_claim(scene, a, b);
+  if (points.length === 0) return { overlap: false, claimed_tolerance };
+  return { overlap: true, ...kit.manifold(points, kit.has_ball(scene, a, b)), claimed_tolerance };
+}
 // PxContactPairPoint: the separation is that of the shapes at the point.
 export const simulation = {
   settings: "contact reports of a step, PCM, contact offset 0.02, rest offset 0; bodies without a response",
@@ -144,12 +153,8 @@ export const simulation = {
   },
   // PxShape.h, setContactOffset: shapes nearer than the sum of their offsets, which are positive, generate contacts.
   within({ a, b }, scene) {
-    if (!(scene.margin > 0)) throw new kit.Unsupported("contact offsets are positive");
-    return { overlap: touching(scene, a, b, scene.margin).length > 0, claimed_tolerance: step_claim(scene, a, b) };
+    return { overlap: near_points(scene, a, b).length > 0, claimed_tolerance: step_claim(scene, a, b) };
   },
-  contact({ a, b }, scene) {
-    const points = touching(scene, a, b), claimed_tolerance = step_claim(scene, a, b);
-    if (points.length === 0) return { overlap: false, claimed_tolerance };
-    return { overlap: true, ...kit.manifold(points, kit.has_ball(scene, a, b)), claimed_tolerance };
-  },
+  contact: ({ a, b }, scene) => contact_of(scene, a, b, touching(scene, a, b)),
+  contact_within: ({ a, b }, scene) => contact_of(scene, a, b, near_points(scene, a, b)),
 };

@@ -53,7 +53,7 @@ function contact_of(scene, a, b, reach) {
 
 function closest(scene, a, b, reach) {
   const c = contact_of(scene, a, b, reach);
-  return c ? { distance: c.distance, point_a: list(c.point1), point_b: list(c.point2) } : {};
+  return c ? { distance: c.distance, point_a: list(c.point1), point_b: list(c.point2), normal: list(c.normal1) } : {};
 }
 
 // What castShape takes after the two shapes, by the number of its arguments, which differs between releases: the
@@ -128,7 +128,7 @@ const engine = {
     return { overlap: true, normal: list(c.normal1), depth: -c.distance };
   },
   distance({ a, b }, scene) {
-    const answer = closest(scene, a, b, unlimited_reach);
+    const { normal, ...answer } = closest(scene, a, b, unlimited_reach);
     if (answer.distance === undefined) throw new kit.Unsupported("Rapier found no closest points");
     return answer;
   },

@@ -87,7 +87,7 @@ export function drawn(r: RefereeJson, question: string, t: number, originOfB: V3
   const gap = numberOf(r.gap?.[0]);
   if (r.verdict === "disjoint" && gap > 0 && r.witness && question !== "overlap")
     out.push({ kind: "segment", from: r.witness[0], to: r.witness[1], words: "the closest points" });
-  if (question === "contact" && r.depth_certificate) out.push(...drawnPolytope(r.depth_certificate));
+  if ((question === "contact" || question === "contact_within") && r.depth_certificate) out.push(...drawnPolytope(r.depth_certificate));
   const depth = r.gap ? -numberOf(r.gap[1]) : NaN;
   if (r.verdict === "overlap" && Number.isFinite(gap) && Number.isFinite(depth) && r.normal)
     out.push({ kind: "direction", along: r.normal, depth, words: "the direction of least depth: moving B this far along it separates the bodies" });

@@ -170,6 +170,8 @@ function marksOf(q: QueryJson): Mark[] {
   return out;
 }
 
+function isOfContact(question: string): boolean { return question === "contact" || question === "contact_within"; }
+
 function isOfMotion(question: string): boolean { return question === "time_of_impact" || question === "ray"; }
 
 function stated(q: QueryJson, e: EngineAnswer): string {
@@ -178,8 +180,9 @@ function stated(q: QueryJson, e: EngineAnswer): string {
   switch (q.question) {
     case "overlap": return a.overlap === undefined ? "–" : a.overlap ? "overlap" : "apart";
     case "distance": return a.distance !== undefined ? short(numberOf(a.distance), 10) : a.overlap ? "overlap, no distance" : "apart, no distance";
-    case "contact": {
-      if (!a.overlap) return "apart";
+    case "contact":
+    case "contact_within": {
+      if (!a.overlap) return q.question === "contact" ? "apart" : "beyond";
       const n = a.normal ? ` along (${a.normal.map((x) => short(numberOf(x), 3)).join(" ")})` : "";
       const points = a.manifold?.length ?? 0;
       return `depth ${a.depth === undefined ? "–" : short(numberOf(a.depth), 9)}${n}, ${points} ${points === 1 ? "point" : "points"}`;
@@ -204,7 +207,7 @@ function refereeLine(q: QueryJson): string {
     return r.verdict === "impact" ? `impact, t in [${r.t_lo}, ${r.t_hi}]` : `${r.verdict}${r.note ? "; " + r.note : ""}`;
   const lo = numberOf(r.gap?.[0]), hi = numberOf(r.gap?.[1]);
   const gap = Number.isFinite(lo) ? `, signed distance ${short((lo + hi) / 2, 14)}${hi > lo ? `, known to ${(hi - lo).toExponential(1)}` : " exactly"}` : "";
-  return `${r.within ? `${r.within} the margin, ` : ""}${r.verdict}${gap}` + (q.question === "contact" && r.verdict === "overlap" && r.normal ? `, least along (${r.normal.map((x) => short(x)).join(" ")})` : "");
+  return `${r.within ? `${r.within} the margin, ` : ""}${r.verdict}${gap}` + (isOfContact(q.question) && r.verdict === "overlap" && r.normal ? `, least along (${r.normal.map((x) => short(x)).join(" ")})` : "");
 }
 
 function drawTable(q: QueryJson): void {
@@ -329,7 +332,7 @@ function shortTruth(q: QueryJson): string {
   if (isOfMotion(q.question) || !Number.isFinite(middle)) return refereeLine(q);
   if (q.referee.verdict === "disjoint") return `apart by ${short(middle, 6)}`;
   if (q.referee.verdict !== "overlap" || middle > 0) return refereeLine(q);
-  const normal = q.question === "contact" && q.referee.normal ? ` along (${q.referee.normal.map((x) => short(x, 3)).join(" ")})` : "";
+  const normal = isOfContact(q.question) && q.referee.normal ? ` along (${q.referee.normal.map((x) => short(x, 3)).join(" ")})` : "";
   return middle === 0 ? "the bodies touch" : `the bodies overlap; the least depth is ${short(-middle, 6)}${normal}`;
 }
 

@@ -32,7 +32,7 @@ const colour = (engine: string): string => colourOf(Math.max(0, methods.indexOf(
 // Errors of 0 are drawn at this floor, below the unit roundoff of a double.
 const floor = 1e-18;
 
-const questions = ["overlap", "distance", "contact", "within", "bounded_distance", "ray", "time_of_impact", "candidates"].filter((q) => rows.some((r) => r.question === q));
+const questions = ["overlap", "distance", "contact", "within", "bounded_distance", "contact_within", "ray", "time_of_impact", "candidates"].filter((q) => rows.some((r) => r.question === q));
 const any = (key: "regime" | "pair" | "scale", what: string): [string, string][] => [["", what], ...values(key).map((v): [string, string] => [v, v])];
 const question = choice(link, "question", "question", questions.map((q) => [q, q.replaceAll("_", " ")]), draw);
 const regime = choice(link, "regime", "regime", any("regime", "all regimes"), draw);

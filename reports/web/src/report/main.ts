@@ -33,7 +33,7 @@ const link = new LinkState();
 const findings = new Findings(data.findings);
 // Questions in their usual order, not alphabetically.
 const order = ["overlap", "distance", "contact", "time_of_impact", "candidates", "swept_candidates", "scene_contacts", "within",
-               "bounded_distance", "candidates_within", "ray"];
+               "bounded_distance", "contact_within", "candidates_within", "ray"];
 for (const [engine, tallies] of Object.entries(data.summary.engines))
   data.summary.engines[engine] = Object.fromEntries(Object.entries(tallies).sort(([a], [b]) => order.indexOf(a) - order.indexOf(b)));
 document.title = `Touchstone: ${data.title}`;
