@@ -187,7 +187,8 @@ def contact_errors(pair, answer):
 
 
 def near_contact_errors(pair, margin, answer):
-    """A contact of bodies that may be apart by the margin. Where they are, a point lies within their distance there of both."""
+    """A contact of bodies that may be apart by the margin. Where they are, a point lies within their distance there of both, or
+    within the margin."""
     found = within_errors(pair, margin, answer["overlap"])
     if not answer["overlap"] or pair.gap[0] <= 0:
         return {**contact_errors(pair, {**answer, "overlap": None}), **found} if answer["overlap"] else found
@@ -198,7 +199,8 @@ def near_contact_errors(pair, margin, answer):
             found["depth_excess"] = (F(depth) + pair.gap[0], F(depth) + pair.gap[1])
     elif answer.get("normal") is not None:
         found.update(normal_errors(pair, answer["normal"], depth, apart=True))
-    points = [{**p, "depth": abs(p["depth"]) if p.get("depth") is not None else None} for p in answer.get("manifold", [])]
+    within = lambda depth: None if depth is None else min(abs(depth), max(float(margin), 0))
+    points = [{**p, "depth": within(p.get("depth"))} for p in answer.get("manifold", [])]
     found.update(point_errors(pair, points, float(pair.gap[1])))
     return found
 

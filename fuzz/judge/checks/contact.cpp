@@ -68,6 +68,21 @@ referee::Bracket least_depth(const CheckInput& in, const referee::PairTruth& tru
   return {std::max(0.0, -truth.gap.hi), std::max(0.0, -truth.gap.lo)};
 }
 
+// Of bodies that are apart, whose depths are negative, the words speak of distances.
+std::string words_on_depth(double depth, double least) {
+  return least < 0 ? fmt::format("states a distance of {:.9g}; it is {:.9g}", -depth, -least)
+                   : fmt::format("states depth {:.9g}; the least is {:.9g}", depth, least);
+}
+std::string words_on_normal(double width, double least) {
+  return fmt::format("along the stated normal they are {:.9g} {}; the {} is {:.9g}", std::abs(width),
+                     width < 0 ? "apart" : "deep", least < 0 ? "distance" : "least depth", std::abs(least));
+}
+std::string words_on_excess(double depth, double width) {
+  return width < 0
+             ? fmt::format("states a distance of {:.9g}; along its own normal it is {:.9g}", -depth, -width)
+             : fmt::format("states depth {:.9g}; its own normal needs only {:.9g}", depth, width);
+}
+
 void judge_depth_alone(const CheckInput& in, CheckOutput& out, const StatedContact& c,
                        const referee::PairTruth& truth) {
   const double l = in.truth.scale(c.a, c.b), tau = in.tau(c.a, c.b, l), depth = *c.depth;
@@ -75,12 +90,10 @@ void judge_depth_alone(const CheckInput& in, CheckOutput& out, const StatedConta
   const referee::Bracket least = least_depth(in, truth);
   out.error(std::max(least.lo - depth, depth - least.hi), l, tau);
   if (least.lo - depth > tau)
-    out.fault(Fault::infeasible, least.lo - depth, l, q,
-              fmt::format("states depth {:.9g}; the least is {:.9g}", depth, least.lo),
+    out.fault(Fault::infeasible, least.lo - depth, l, q, words_on_depth(depth, least.lo),
               truth.verdict_certificate);
   if (depth - least.hi > tau)
-    out.fault(Fault::depth_excess, depth - least.hi, l, q,
-              fmt::format("states depth {:.9g}; the least is {:.9g}", depth, least.hi),
+    out.fault(Fault::depth_excess, depth - least.hi, l, q, words_on_depth(depth, least.hi),
               direction_certificate(in, c, truth));
 }
 
@@ -120,6 +133,9 @@ Shortfall shortfall(const CheckInput& in, const StatedContact& c, const referee:
 }
 
 std::string words_on_shortfall(double depth, const Shortfall& s, const referee::Bracket& w) {
+  if (s.is_of_plane && w.lo < 0)
+    return fmt::format("states a distance of {:.9g}; along the stated normal they are {:.9g} apart", -depth,
+                       -w.lo);
   if (s.is_of_plane)
     return fmt::format("states depth {:.9g}; a plane with the stated normal separates only after {:.9g}",
                        depth, w.lo);
@@ -159,9 +175,7 @@ void judge_normal_and_depth(const CheckInput& in, CheckOutput& out, const Stated
   const double most_regret = tau + in.bias(c.a, c.b) * std::max(0.0, least.lo);
   out.error(regret, l, most_regret);
   if (regret > most_regret)
-    out.fault(Fault::not_minimal, regret, l, q,
-              fmt::format("along the stated normal they are {:.9g} deep; the least depth is {:.9g}", w.lo,
-                          (least.lo + least.hi) / 2),
+    out.fault(Fault::not_minimal, regret, l, q, words_on_normal(w.lo, (least.lo + least.hi) / 2),
               direction_certificate(in, c, truth));
   note_open_depth(in, out, c, w, least, most_regret);
   if (!c.depth) return;
@@ -172,8 +186,7 @@ void judge_normal_and_depth(const CheckInput& in, CheckOutput& out, const Stated
     out.fault(Fault::infeasible, infeasible.value, l, q, words_on_shortfall(depth, infeasible, w),
               truth.verdict_certificate);
   if (excess > tau)
-    out.fault(Fault::depth_excess, excess, l, q,
-              fmt::format("states depth {:.9g}; its own normal needs only {:.9g}", depth, w.hi),
+    out.fault(Fault::depth_excess, excess, l, q, words_on_excess(depth, w.hi),
               direction_certificate(in, c, truth));
 }
 
