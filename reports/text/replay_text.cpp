@@ -103,7 +103,9 @@ std::string stated(const Query& q, const Observation& o) {
       if (!o.overlap) return "-";
       if (!*o.overlap) return q.question == Question::contact ? "apart" : "beyond";
       s = q.question == Question::contact ? "overlap" : "within";
-      if (o.depth) s += fmt::format(", depth {:.9g}", *o.depth);
+      if (o.depth)
+        s += *o.depth < 0 && q.question == Question::contact_within ? fmt::format(", {:.9g} apart", -*o.depth)
+                                                                    : fmt::format(", depth {:.9g}", *o.depth);
       if (o.normal) s += fmt::format(", n {}", vec(*o.normal));
       return s + fmt::format(", {} points", o.manifold.size());
     case Question::within:

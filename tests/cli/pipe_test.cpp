@@ -116,6 +116,10 @@ for line in sys.stdin:
   gap = b["pose"]["translation"][0] - a["pose"]["translation"][0]
   gap -= sum(scene["shapes"][x["shape"]]["radius"] for x in (a, b))
   if m["ask"] == "within": say({"overlap": gap <= scene["margin"]})
+  elif m["ask"] == "contact_within":
+    mid = a["pose"]["translation"][0] + scene["shapes"][a["shape"]]["radius"] + gap / 2
+    near = {"normal": [1, 0, 0], "depth": -gap, "points": [{"position": [mid, 0, 0], "depth": -gap}]}
+    say({"overlap": True, **near} if gap <= scene["margin"] else {"overlap": False})
   elif m["ask"] == "bounded_distance": say({"lower": gap} if gap > scene["margin"] else {"distance": gap})
   elif m["ask"] == "ray": say({"toi": -gap / b["motion"]["linear"][0], "normal": [1, 0, 0]})
 )");
@@ -126,12 +130,14 @@ for line in sys.stdin:
     {"shape": 1, "pose": {"translation": [5, 0, 0]}, "motion": {"linear": [-8, 0, 0]}}]},
   "queries": [{"question": "within", "a": 1, "b": 2}, {"question": "within", "a": 1, "b": 3},
     {"question": "bounded_distance", "a": 1, "b": 2}, {"question": "bounded_distance", "a": 1, "b": 3},
+    {"question": "contact_within", "a": 1, "b": 2}, {"question": "contact_within", "a": 1, "b": 3},
     {"question": "ray", "a": 1, "b": 4}]})");
   const Run told = w.touchstone("replay three.json --engines 'pipe:python3 balls.py' --subject balls");
   INFO(told.out << told.err);
   CHECK(told.code == 0);
   for (const char* const answer :
-       {"right   within\n", "right   beyond\n", "right   0.25\n", "right   at least 4\n", "right   t = 0.5,"})
+       {"right   within\n", "right   beyond\n", "right   0.25\n", "right   at least 4\n",
+        "right   within, 0.25 apart, n (1 0 0), 1 points", "right   t = 0.5,"})
     CHECK(told.out.find(answer) != std::string::npos);
 }
 

@@ -87,6 +87,17 @@ class SecondJudge(unittest.TestCase):
         witness = {"distance": 0.5, "witness": [[1, 0, 0], [1.5, 0.25, 0]]}
         self.assertEqual(self.verdict("distance", "witness_off", apart, witness), "confirmed")
 
+    def test_contacts_within_a_margin(self):
+        apart = {**scene("box", "box", [2.5, 0, 0]), "margin": 0.75}
+        right = {"overlap": True, "normal": [1, 0, 0], "depth": -0.5, "manifold": [{"position": [1.25, 0, 0], "depth": -0.5}]}
+        for fault in ("infeasible", "not_minimal", "depth_excess", "point_off", "ghost"):
+            self.assertEqual(self.verdict("contact_within", fault, apart, right), "refuted", fault)
+        wrong = {"infeasible": {"depth": -0.6}, "not_minimal": {"normal": [-1, 0, 0]}, "depth_excess": {"depth": 0},
+                 "point_off": {"manifold": [{"position": [2, 0, 0], "depth": -0.5}]}, "missed": {"overlap": False}}
+        for fault, change in wrong.items():
+            self.assertEqual(self.verdict("contact_within", fault, apart, {**right, **change}), "confirmed", fault)
+        self.assertEqual(self.verdict("contact_within", "ghost", {**apart, "margin": 0.25}, right), "confirmed")
+
     def test_impacts(self):
         ahead = scene("box", "box", [4, 0, 0], {"linear": [-4, 0, 0]})
         for toi, fault, expected in ((0.5, "early", "refuted"), (0.4, "early", "confirmed"), (0.6, "late", "confirmed"), (None, "missed", "confirmed")):

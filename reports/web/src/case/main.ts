@@ -185,7 +185,9 @@ function stated(q: QueryJson, e: EngineAnswer): string {
       if (!a.overlap) return q.question === "contact" ? "apart" : "beyond";
       const n = a.normal ? ` along (${a.normal.map((x) => short(numberOf(x), 3)).join(" ")})` : "";
       const points = a.manifold?.length ?? 0;
-      return `depth ${a.depth === undefined ? "–" : short(numberOf(a.depth), 9)}${n}, ${points} ${points === 1 ? "point" : "points"}`;
+      const depth = a.depth === undefined ? NaN : numberOf(a.depth);
+      const far = q.question === "contact_within" && depth < 0 ? `${short(-depth, 9)} apart` : `depth ${a.depth === undefined ? "–" : short(depth, 9)}`;
+      return `${far}${n}, ${points} ${points === 1 ? "point" : "points"}`;
     }
     case "within": return a.overlap === undefined ? "–" : a.overlap ? "within" : "beyond";
     case "bounded_distance":
