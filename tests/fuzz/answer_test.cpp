@@ -56,7 +56,9 @@ TEST_CASE("a stated answer gets the ruling that the judge gives an engine for it
       const Observation& o = observed.answers[q];
       if (o.outcome != Outcome::answered || query.a != 0 || query.b != 1) continue;
       // A stated answer has no field for these.
-      if (query.question == Question::within || query.question == Question::ray) continue;
+      if (query.question == Question::within || query.question == Question::contact_within ||
+          query.question == Question::ray)
+        continue;
       fuzz::StatedAnswer stated{o, query.question == Question::time_of_impact};
       if (!stated.states_anything()) continue;
       INFO(c.id << " " << to_string(query.question));
