@@ -57,21 +57,30 @@ std::string question_table(const fuzz::Stability& s, const std::string& question
   });
 }
 
-// The first rung at which an answer about a pair, to any question, contradicts that to another form of the
-// pair.
-std::string form_table(const fuzz::Stability& s, std::size_t form, bool motions) {
+// Questions about pairs that share a table: the title says what they are about.
+constexpr std::string_view of_pairs = "", of_margins = ", margin", of_motions = ", impact";
+
+std::string_view subject_of(const LadderResult& r) {
+  const auto question = question_from_string(r.question);
+  if (question && is_motion_question(*question)) return of_motions;
+  return question && is_margin_question(*question) ? of_margins : of_pairs;
+}
+
+// The first rung at which an answer about a pair, to any question of a subject, contradicts that to another
+// form of the pair.
+std::string form_table(const fuzz::Stability& s, std::size_t form, std::string_view subject) {
   std::vector<std::string> engines, ladders;
-  const auto of_kind = [&](const LadderResult& r) {
-    return r.question != "candidates" && (r.question == "time_of_impact") == motions;
+  const auto is_of_subject = [&](const LadderResult& r) {
+    return r.question != "candidates" && subject_of(r) == subject;
   };
   for (const LadderResult& r : s.results)
-    if (of_kind(r)) {
+    if (is_of_subject(r)) {
       add_once(engines, r.engine);
       add_once(ladders, r.ladder);
     }
-  const std::string title = fmt::format("{}{}", fuzz::form_columns[form], motions ? ", impact" : "");
+  const std::string title = fmt::format("{}{}", fuzz::form_columns[form], subject);
   const bool any = std::any_of(s.results.begin(), s.results.end(), [&](const LadderResult& r) {
-    return of_kind(r) && r.breaks_at(form).has_value();
+    return is_of_subject(r) && r.breaks_at(form).has_value();
   });
   if (!any) return engines.empty() ? "" : title + ": no engine contradicts itself\n\n";
   return table(title, engines, ladders, [&](const std::string& e, const std::string& l) -> std::string {
@@ -82,7 +91,7 @@ std::string form_table(const fuzz::Stability& s, std::size_t form, bool motions)
       return std::find_if(r.rungs.begin(), r.rungs.end(), at) - r.rungs.begin();
     };
     for (const LadderResult& r : s.results) {
-      if (!of_kind(r) || r.ladder != l || r.engine != e) continue;
+      if (!is_of_subject(r) || r.ladder != l || r.engine != e) continue;
       asked = true;
       if (r.breaks_at(form) && (!earliest || index(r) < index(*earliest))) earliest = &r;
     }
@@ -100,7 +109,8 @@ std::string stability_text(const fuzz::Stability& s) {
           s.per_rung),
       79, 0);
   text += "\n\n";
-  for (const char* q : {"overlap", "distance", "contact", "time_of_impact", "candidates"})
+  for (const char* q : {"overlap", "distance", "contact", "within", "bounded_distance", "contact_within",
+                        "time_of_impact", "candidates"})
     text += question_table(s, q);
   text += wrapped(
       "The first rung at which two answers about the same pair contradict each other by more than the "
@@ -109,7 +119,8 @@ std::string stability_text(const fuzz::Stability& s) {
       79, 0);
   text += "\n\n";
   for (std::size_t form = 1; form < fuzz::form_count; ++form)
-    text += form_table(s, form, false) + form_table(s, form, true);
+    for (const std::string_view subject : {of_pairs, of_margins, of_motions})
+      text += form_table(s, form, subject);
   for (const auto& l : s.ladders) {
     for (const LadderResult& r : s.results)
       if (r.ladder == l.name) {

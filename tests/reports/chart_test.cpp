@@ -463,6 +463,18 @@ TEST_CASE("stability follows motions, and the motion of a scenario", "[cli][stab
   CHECK(w.touchstone("stability --motion nothing --engines core --out n").code == 2);
 }
 
+TEST_CASE("every question of a ladder has a table", "[cli][stability]") {
+  const Workspace w("stability");
+  for (const LadderRow& l : ladders()) {
+    INFO(l.name);
+    const auto s =
+        w.touchstone("stability --quick --ladder " + std::string(l.name) + " --engines core --out s");
+    CHECK(s.code == 0);
+    for (const Question q : l.questions)
+      CHECK(s.out.find("\n" + std::string(to_string(q)) + " ") != std::string::npos);
+  }
+}
+
 TEST_CASE("chart and stability write text, CSV and JSON, with or without a page", "[cli][chart]") {
   const Workspace w("chart");
   const auto s = w.touchstone("stability --quick --ladder angle --engines core --out s");

@@ -216,8 +216,8 @@ void check_contact_within(const CheckInput& in, CheckOutput& out) {
   if (truth.verdict != referee::Verdict::overlap) out.frame_matters();
   const double tau = in.tau(in.truth.scale(stated.a, stated.b));
   if (truth.verdict == referee::Verdict::undecided || truth.gap.lo > tau + in.offset()) return;
-  const bool is_flat = !in.is_surface(stated.a) && !in.is_surface(stated.b);
-  if (is_flat || !is_speculative(in, truth)) return judge_normal_and_depth(in, out, stated, truth);
+  const bool has_planes = !in.is_surface(stated.a) && !in.is_surface(stated.b);
+  if (has_planes || !is_speculative(in, truth)) return judge_normal_and_depth(in, out, stated, truth);
   if (stated.depth) judge_depth_alone(in, out, stated, truth);
   if (stated.normal) out.not_judged("the normal of a surface that is apart", true);
 }

@@ -151,10 +151,10 @@ std::vector<Derived> derive_grow(const RelationInput& in) {
 namespace {
 
 // The derivative of the distance by translations of B that the answer's points imply, and how far off it may
-// be; empty where they are too near to each other, or for surfaces, whose distance is not convex. Points within
-// τ of their bodies, and at most d + 3 τ apart, lie up to √(8 τ d) beside the nearest ones: their direction may
-// be off by e = √(8 τ / d) and some τ / d. That lowers the gap of the planes across it by up to e times the
-// extents, at most 2 L, and changes n·v by e·|v|.
+// be; empty where they are too near to each other, or for surfaces, whose distance is not convex. Points
+// within τ of their bodies, and at most d + 3 τ apart, lie up to √(8 τ d) beside the nearest ones: their
+// direction may be off by e = √(8 τ / d) and some τ / d. That lowers the gap of the planes across it by up to
+// e times the extents, at most 2 L, and changes n·v by e·|v|.
 struct Slope {
   Vec3 normal;
   double error;
