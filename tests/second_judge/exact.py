@@ -87,11 +87,11 @@ class Poly:
 
 
 class Curved:
-    """Cylinder, cone or ellipsoid: x = m y + c, y in the body's frame. Points of it are exact: circles and spheres have
-    rational parametrisations."""
+    """Cylinder, cone or ellipsoid, thickened by a radius: x = m y + c, y in the body's frame. Points of the core are exact:
+    circles and spheres have rational parametrisations."""
 
-    def __init__(self, kind, size, m, c):
-        self.kind, self.size, self.m, self.c, self.radius = kind, size, m, c, F(0)
+    def __init__(self, kind, size, m, c, radius=F(0)):
+        self.kind, self.size, self.m, self.c, self.radius = kind, size, m, c, radius
         self.transposed = tuple(zip(*m))
 
     def centre(self, origin):

@@ -74,8 +74,6 @@ def place(shape, m, c):
         return Poly([at((i * x, j * y, k * z)) for i, j, k in signs], F(shape.get("radius", 0)))
     if kind in ("hull", "padded_hull"):
         return Poly([at(v) for v in sorted({exact(v) for v in shape["vertices"]})], F(shape.get("padding", 0)))
-    if kind.startswith("padded_"):
-        raise CannotTell("round shapes with padding are not judged here")
     if kind == "solid_mesh":
         raise CannotTell("solid meshes are not judged here")
     if kind == "half_space":
@@ -84,8 +82,9 @@ def place(shape, m, c):
     if kind == "mesh":
         p = [at(exact(v)) for v in shape["vertices"]]
         return Mesh([Poly([p[i] for i in t]) for t in shape["triangles"]], p)
+    kind = kind.removeprefix("padded_")
     size = [F(s) for s in shape["semi_axes"]] if kind == "ellipsoid" else [F(shape["radius"]), F(shape["half_height"])]
-    return Curved(kind, size, m, c)
+    return Curved(kind, size, m, c, F(shape.get("padding", 0)))
 
 
 def extent(shape):
@@ -139,7 +138,7 @@ def ball_around(s):
     """Centre and radius, in floats, of a bounding ball of a convex set."""
     if isinstance(s, Curved):
         k = [float(x) for x in s.size]
-        return floats(s.c), (max(k) if s.kind == "ellipsoid" else math.hypot(k[0], k[1]))
+        return floats(s.c), (max(k) if s.kind == "ellipsoid" else math.hypot(k[0], k[1])) + float(s.radius)
     c = floats(mul(F(1, len(s.points)), (sum(p[0] for p in s.points), sum(p[1] for p in s.points), sum(p[2] for p in s.points))))
     return c, max(math.dist(c, floats(p)) for p in s.points) + float(s.radius)
 

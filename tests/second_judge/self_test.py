@@ -1,5 +1,6 @@
 """The second judge on accusations with known answers, including false ones."""
 import json
+import math
 import os
 import tempfile
 import unittest
@@ -16,6 +17,9 @@ SHAPES = {
     "cylinder": {"type": "cylinder", "radius": 1, "half_height": 1},
     "cone": {"type": "cone", "radius": 1, "half_height": 1},
     "ellipsoid": {"type": "ellipsoid", "semi_axes": [1, 1, 1]},
+    "padded": {"type": "padded_cylinder", "radius": 1, "half_height": 1, "padding": 0.5},
+    "padded cone": {"type": "padded_cone", "radius": 1, "half_height": 1, "padding": 0.5},
+    "padded ellipsoid": {"type": "padded_ellipsoid", "semi_axes": [1, 1, 1], "padding": 0.5},
     "floor": {"type": "half_space", "normal": [0, 0, 2], "offset": -2},
     "triangle": {"type": "mesh", "vertices": [[-9, -9, 0], [9, -9, 0], [0, 9, 0]], "triangles": [[0, 1, 2]]},
 }
@@ -48,6 +52,13 @@ class SecondJudge(unittest.TestCase):
         self.gap_is("cylinder", "box", [0, 0, 1.75], -0.25)
         self.gap_is("ellipsoid", "ball", [0, 0, 2.25], 0.25)
         self.gap_is("ellipsoid", "box", [0, 0, 1.5], -0.5, 1e-2)
+        self.gap_is("padded", "ball", [4, 0, 0], 1.5)
+        self.gap_is("padded", "box", [0, 0, 2.25], -0.25)
+        self.gap_is("padded", "box", [0, 0, 1.75], -0.75)
+        self.gap_is("padded", "padded", [4, 5, 0], math.sqrt(41) - 3)
+        self.gap_is("floor", "padded cone", [0, 0, 1], 0.5)
+        self.gap_is("padded ellipsoid", "ball", [0, 0, 2.25], -0.25)
+        self.gap_is("triangle", "padded", [0, 0, 2], 0.5)
         self.gap_is("triangle", "box", [0, 0, 1.5], 0.5)
         self.gap_is("triangle", "box", [0, 0, 0.75], -0.25)
 
