@@ -58,10 +58,10 @@ def length(v):
 
 
 class Pair:
-    """Two bodies at rest; the gap is computed on demand."""
+    """Two bodies at rest; the gap is computed on demand. tau: of the answer, 0 if it does not matter."""
 
-    def __init__(self, a, b, hints=()):
-        self.a, self.b, self.hints, self.known = a, b, list(hints), None
+    def __init__(self, a, b, hints=(), tau=F(0)):
+        self.a, self.b, self.hints, self.known, self.tau = a, b, list(hints), None, tau
 
     @property
     def gap(self):
@@ -149,15 +149,16 @@ def normal_errors(pair, normal, depth, apart=False):
     solid = not pair.surface() or pair.gap[0] >= 0
     if depth is not None and not math.isfinite(depth):
         return {**found, "infeasible": (FAR, FAR)}
-    if depth is not None:
-        found["depth_excess"] = (F(depth) - w[1], F(depth) - w[0])
-        if solid:
-            found["infeasible"] = (w[0] - F(depth), w[1] - F(depth))
-        elif depth < 0:
-            found["infeasible"] = (F(-depth), F(-depth))
     if solid:
         least = (-pair.gap[1], -pair.gap[0]) if apart else (max(-pair.gap[1], F(0)), max(-pair.gap[0], F(0)))
         found["not_minimal"] = (w[0] - least[1], w[1] - least[0])
+    if depth is not None:
+        found["depth_excess"] = (F(depth) - w[1], F(depth) - w[0])
+        if solid:  # beside a normal that is right, a depth is compared with the least one
+            due = least if w[0] - least[1] <= pair.tau else w
+            found["infeasible"] = (due[0] - F(depth), due[1] - F(depth))
+        elif depth < 0:
+            found["infeasible"] = (F(-depth), F(-depth))
     return found
 
 
@@ -199,9 +200,10 @@ def near_contact_errors(pair, margin, answer):
             found["depth_excess"] = (F(depth) + pair.gap[0], F(depth) + pair.gap[1])
     elif answer.get("normal") is not None:
         found.update(normal_errors(pair, answer["normal"], depth, apart=True))
-    within = lambda depth: None if depth is None else min(abs(depth), max(float(margin), 0))
+    within = lambda d: d if d is None or d >= 0 else min(-d, max(float(margin), 0))
     points = [{**p, "depth": within(p.get("depth"))} for p in answer.get("manifold", [])]
-    found.update(point_errors(pair, points, float(pair.gap[1])))
+    of_contact = depth if depth is not None and math.isfinite(depth) else 0
+    found.update(point_errors(pair, points, max(of_contact, float(pair.gap[1]))))
     return found
 
 
@@ -299,7 +301,7 @@ def errors(scene, question, a, b, answer, tau, certificate):
         hints.append([-x for x in hints[0]])
     if answer.get("normal") and finite(answer["normal"]):
         hints.append(answer["normal"])
-    pair = Pair(world(scene, a), world(scene, b), hints)
+    pair = Pair(world(scene, a), world(scene, b), hints, tau)
     if question == "overlap":
         return verdict_errors(pair, answer["overlap"])
     if question == "within":
@@ -436,7 +438,7 @@ def judge_let_offs(judge, options):
         if run.returncode not in (0, 1, 3) or not run.stdout.strip():
             continue
         for query in json.loads(run.stdout)[0]["queries"]:
-            if query["question"] not in ("overlap", "distance", "contact", "time_of_impact"):
+            if query["question"] not in ("overlap", "distance", "contact", "time_of_impact", "within", "bounded_distance", "contact_within"):
                 continue
             for engine, e in query["engines"].items():
                 if not e["right"] or e["answer"].get("outcome") != "answered":
