@@ -36,6 +36,18 @@ struct CheckInput {
     const Scene& s = truth.scene();
     return depth_bias(card, kind_of(s.shape_of(a)), kind_of(s.shape_of(b)));
   }
+  /// A body whose flat faces end in circles.
+  bool has_rim(int body) const {
+    switch (kind_of(truth.scene().shape_of(body))) {
+      case ShapeKind::cylinder:
+      case ShapeKind::cone:
+      case ShapeKind::padded_cylinder:
+      case ShapeKind::padded_cone:
+        return true;
+      default:
+        return false;
+    }
+  }
   bool is_mesh(int body) const { return touchstone::is_mesh(truth.scene().shape_of(body)); }
   /// A mesh that is not a solid.
   bool is_surface(int body) const { return kind_of(truth.scene().shape_of(body)) == ShapeKind::mesh; }

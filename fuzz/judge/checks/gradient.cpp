@@ -97,12 +97,8 @@ double length_of(const Region& r, const Vec3& normal) {
 void judge_unique(const CheckInput& in, CheckOutput& out, const referee::PairTruth& truth, double l) {
   constexpr double parallel = 0x1p-51, least_length = 1e-6;  // of the smaller extent; of L
   const auto [a, b] = std::pair{in.query.a, in.query.b};
-  const auto has_rim = [&](int body) {
-    const ShapeKind kind = kind_of(in.truth.scene().shape_of(body));
-    return kind == ShapeKind::cylinder || kind == ShapeKind::cone;
-  };
   const double slack = parallel * smaller_extent(in);
-  if (has_rim(a) || has_rim(b) || !(slack > 0)) return;
+  if (in.has_rim(a) || in.has_rim(b) || !(slack > 0)) return;
   const double length = length_of(referee::contact_region(in.truth.placed(in.frame, a),
                                                           in.truth.placed(in.frame, b), truth.normal, slack),
                                   truth.normal);

@@ -113,11 +113,7 @@ void check_completeness(const CheckInput& in, CheckOutput& out, double l, const 
   // Slack in units of L; least width in units of L; least share of the region's area.
   constexpr double parallel = 0x1p-52, least_width = 1e-6, least_covered = 0.9;
   const auto [a, b] = std::pair{in.query.a, in.query.b};
-  const auto has_rim = [&](int body) {
-    const ShapeKind kind = kind_of(in.truth.scene().shape_of(body));
-    return kind == ShapeKind::cylinder || kind == ShapeKind::cone;
-  };
-  if (has_rim(a) || has_rim(b)) return;
+  if (in.has_rim(a) || in.has_rim(b)) return;
   const Vec3& n = *in.answer.normal;
   const referee::ContactRegion region =
       referee::contact_region(in.truth.placed(in.frame, a), in.truth.placed(in.frame, b), n, parallel * l);
