@@ -191,8 +191,10 @@ def near_contact_errors(pair, margin, answer):
     """A contact of bodies that may be apart by the margin. Where they are, a point lies within their distance there of both, or
     within the margin."""
     found = within_errors(pair, margin, answer["overlap"])
-    if not answer["overlap"] or pair.gap[0] <= 0:
-        return {**contact_errors(pair, {**answer, "overlap": None}), **found} if answer["overlap"] else found
+    if not answer["overlap"]:
+        return found
+    if pair.gap[0] <= 0:
+        return {**contact_errors(pair, {**answer, "overlap": None}), **found}
     depth = answer.get("depth")
     if pair.surface():
         if depth is not None and math.isfinite(depth):

@@ -50,19 +50,37 @@ R below_at(const Corners<R>& outline, R x, R y) {
   return most;
 }
 
-/// Whether a point in the window, to within rounding, is beyond its corner i: edges of a needle end where
-/// rounding lets their lines cross.
+/// The tips of a window: points in it, to within rounding, that are beyond a corner. Edges of a needle end
+/// where rounding lets their lines cross.
 template <class R>
-bool is_beyond(const Corners<R>& window, int i, const Corner<R>& p) {
-  const Corner<R>& w = window[i];
-  const auto inwards = [&](const Corner<R>& other) {
-    const R x = other.x - w.x, y = other.y - w.y;
-    return std::pair<R, R>(x / sqrt(x * x + y * y), y / sqrt(x * x + y * y));
-  };
-  const auto [x0, y0] = inwards(window[(i + 1) % window.size]);
-  const auto [x1, y1] = inwards(window[(i + window.size - 1) % window.size]);
-  return (x0 + x1) * (p.x - w.x) + (y0 + y1) * (p.y - w.y) < 0;
-}
+class Tips {
+ public:
+  explicit Tips(const Corners<R>& window) : window_(window) {
+    for (int i = 0; i < window.size; ++i) {
+      const auto next = towards(i, (i + 1) % window.size);
+      const auto last = towards(i, (i + window.size - 1) % window.size);
+      inwards_[static_cast<std::size_t>(i)] = {next[0] + last[0], next[1] + last[1]};
+    }
+  }
+  /// The corner that the point is beyond; null: it is beyond none.
+  const Corner<R>* corner_before(const Corner<R>& p) const {
+    for (int i = 0; i < window_.size; ++i) {
+      const Corner<R>& w = window_[i];
+      const auto& in = inwards_[static_cast<std::size_t>(i)];
+      if (in[0] * (p.x - w.x) + in[1] * (p.y - w.y) < 0) return &w;
+    }
+    return nullptr;
+  }
+
+ private:
+  std::array<R, 2> towards(int from, int to) const {
+    const R x = window_[to].x - window_[from].x, y = window_[to].y - window_[from].y;
+    const R length = sqrt(x * x + y * y);
+    return {x / length, y / length};
+  }
+  const Corners<R>& window_;
+  std::array<std::array<R, 2>, static_cast<std::size_t>(Corners<R>::capacity)> inwards_;
+};
 
 /// `window`, a polygon, and the part of `subject` inside it.
 template <class R>
@@ -70,15 +88,14 @@ Spots<R> face_spots(const Corners<R>& window, Corners<R> subject, bool window_is
   outline::clip(subject, window, tolerance, window_is_a);
   Spots<R> r;
   if (subject.overflow) return r;
+  const Tips<R> tips(window);
   for (Corner<R> c : subject) {
-    int corner = 0;
-    while (corner < window.size && !is_beyond(window, corner, c)) ++corner;
-    const bool is_corner = corner < window.size;
-    if (is_corner) {
-      c.x = window[corner].x;
-      c.y = window[corner].y;
+    const Corner<R>* const corner = tips.corner_before(c);
+    if (corner) {
+      c.x = corner->x;
+      c.y = corner->y;
     }
-    const R of_window = is_corner ? window[corner].below : below_at(window, c.x, c.y);
+    const R of_window = corner ? corner->below : below_at(window, c.x, c.y);
     r.add({c.x, c.y, window_is_a ? of_window : c.below, window_is_a ? c.below : of_window, c.id});
   }
   return r;

@@ -190,36 +190,41 @@ void judge_normal_and_depth(const CheckInput& in, CheckOutput& out, const Stated
               direction_certificate(in, c, truth));
 }
 
-void check_contact(const CheckInput& in, CheckOutput& out) {
-  check_overlap(in, out);
-  if (!in.answer.overlap || !*in.answer.overlap) return;
+namespace {
+
+// The contact that the answer states, if there is one that can be measured. Bodies farther apart than τ and
+// what may be reported beyond it have none: the verdict is a ghost.
+std::optional<StatedContact> measurable(const CheckInput& in, CheckOutput& out) {
+  if (!in.answer.overlap || !*in.answer.overlap) return std::nullopt;
   const StatedContact stated{in.query.a, in.query.b, in.answer.normal, in.answer.depth};
-  if (!judge_validity(in, out, stated)) return;
+  if (!judge_validity(in, out, stated)) return std::nullopt;
   const referee::PairTruth& truth = in.truth.pair(in.frame, stated.a, stated.b);
   // The bodies may be apart: the received bodies must be judged for themselves.
   if (truth.verdict != referee::Verdict::overlap) out.frame_matters();
-  // Bodies farther apart than τ have no contact to measure: the verdict is a ghost.
-  if (truth.verdict == referee::Verdict::undecided ||
-      truth.gap.lo > in.tau(in.truth.scale(stated.a, stated.b)) + in.offset())
-    return;
-  judge_normal_and_depth(in, out, stated, truth);
+  const double most = in.tau(in.truth.scale(stated.a, stated.b)) + in.offset();
+  if (truth.verdict == referee::Verdict::undecided || truth.gap.lo > most) return std::nullopt;
+  return stated;
+}
+
+}  // namespace
+
+void check_contact(const CheckInput& in, CheckOutput& out) {
+  check_overlap(in, out);
+  if (const auto stated = measurable(in, out))
+    judge_normal_and_depth(in, out, *stated, in.truth.pair(in.frame, stated->a, stated->b));
 }
 
 // The verdict is that of `within`; the rest is a contact whose depth is minus the distance of bodies that are
 // apart. A surface that is apart from a body has that depth too, but no support plane to judge a normal by.
 void check_contact_within(const CheckInput& in, CheckOutput& out) {
   check_within(in, out);
-  if (!in.answer.overlap || !*in.answer.overlap) return;
-  const StatedContact stated{in.query.a, in.query.b, in.answer.normal, in.answer.depth};
-  if (!judge_validity(in, out, stated)) return;
-  const referee::PairTruth& truth = in.truth.pair(in.frame, stated.a, stated.b);
-  if (truth.verdict != referee::Verdict::overlap) out.frame_matters();
-  const double tau = in.tau(in.truth.scale(stated.a, stated.b));
-  if (truth.verdict == referee::Verdict::undecided || truth.gap.lo > tau + in.offset()) return;
-  const bool has_planes = !in.is_surface(stated.a) && !in.is_surface(stated.b);
-  if (has_planes || !is_speculative(in, truth)) return judge_normal_and_depth(in, out, stated, truth);
-  if (stated.depth) judge_depth_alone(in, out, stated, truth);
-  if (stated.normal) out.not_judged("the normal of a surface that is apart", true);
+  const auto stated = measurable(in, out);
+  if (!stated) return;
+  const referee::PairTruth& truth = in.truth.pair(in.frame, stated->a, stated->b);
+  const bool has_planes = !in.is_surface(stated->a) && !in.is_surface(stated->b);
+  if (has_planes || !is_speculative(in, truth)) return judge_normal_and_depth(in, out, *stated, truth);
+  if (stated->depth) judge_depth_alone(in, out, *stated, truth);
+  if (stated->normal) out.not_judged("the normal of a surface that is apart", true);
 }
 
 }  // namespace touchstone::fuzz
