@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "scenarios/exhaustive/box_scene.h"
+#include "scenarios/value/height_surface.h"
 
 namespace touchstone::fuzz {
 namespace {
@@ -97,6 +98,19 @@ void overlap_probes(std::vector<Probe>& all) {
                               "solid where n.x <= d: size[0..2] is n of any length, size[3] is d"));
   all.push_back(overlap_probe("half-spaces end where n.x = d", ground, at(small, 3, 4, 0.9), false,
                               "solid where n.x <= d: here n is (0, 0, 2) and d is 1"));
+  // Flat but for one point, at (-0.5, 2, 1.5).
+  const Placed field{centred_height_surface(3, 4, 1, 2,
+                                            [](std::size_t row, std::size_t column) {
+                                              return row == 2 && column == 1 ? 1.5 : 0.0;
+                                            }),
+                     Vec3::Zero()};
+  all.push_back(overlap_probe("meshes that are height fields", field, at(small, -0.5, 2, 1.4), true,
+                              "vertices row by row, columns along +x, rows along +y, heights along z"));
+  all.push_back(overlap_probe("height fields are not mirrored", field, at(small, -0.5, -2, 1), false,
+                              "vertices row by row, columns along +x, rows along +y"));
+  all.push_back(
+      overlap_probe("cells of height fields are divided as their triangles say", field, at(small, 0, 1, 0.75),
+                    false, "the diagonal leads from a cell's corner of least x and y to the opposite one"));
   Placed turned = box;
   turned.shape = Box{Vec3(3, 0.1, 0.1)};
   turned.q = {0, 0, 1, 1};

@@ -1,6 +1,7 @@
 // The Bullet plug-in, in one precision: query path and simulation path, each with Bullet's default margins
 // and without margins, and, as a separate plug-in, with other settings (settings.h).
 #include <limits>
+#include <map>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -236,27 +237,41 @@ class Engine {
   }
 
   void ask_scene(ts_answer& out, const ts_sink& sink) {
-    World world(configuration_);
-    for (auto& o : objects_) world->addCollisionObject(o.get());
     const auto report = [&](int a, int b, const std::vector<Point>& all) {
       const Point* const d = deepest(all);
       if (filter_.drops(a, b) || !d || d->distance > 0) return;
       sink.contact(sink.ctx, a, b, d->normal_ab.data(), -d->distance);
       out.claimed_tolerance = std::max(out.claimed_tolerance, claimed_margin(a, b));
     };
-    if (sim_) {
-      world->performDiscreteCollisionDetection();
-      for (int i = 0; i < world->getDispatcher()->getNumManifolds(); ++i) {
-        const btPersistentManifold& m = *world->getDispatcher()->getManifoldByIndexInternal(i);
-        report(m.getBody0()->getUserIndex(), m.getBody1()->getUserIndex(), manifold_points(m, *m.getBody0()));
-      }
-    } else {
-      world->updateAabbs();
-      world->computeOverlappingPairs();
-      for_each_cached_pair(*world, [&](int a, int b) {
-        if (!filter_.drops(a, b)) report(a, b, query_points(*query_world_, object(a), object(b), 0));
-      });
+    sim_ ? simulate_scene(report) : query_scene(report);
+  }
+
+  template <class Report>
+  void simulate_scene(const Report& report) {
+    const Assembly assembly(*scene_, objects_);
+    World world(configuration_);
+    for (btCollisionObject* o : assembly.objects()) world->addCollisionObject(o);
+    world->performDiscreteCollisionDetection();
+    std::map<std::pair<int, int>, std::vector<Point>> of_pair;
+    for (int i = 0; i < world->getDispatcher()->getNumManifolds(); ++i) {
+      const btPersistentManifold& m = *world->getDispatcher()->getManifoldByIndexInternal(i);
+      for (const Point& p : manifold_points(m, *m.getBody0()))
+        of_pair[{assembly.body_of(*m.getBody0(), p.index_a), assembly.body_of(*m.getBody1(), p.index_b)}]
+            .push_back(p);
     }
+    for (const auto& [pair, points] : of_pair) report(pair.first, pair.second, points);
+    for (btCollisionObject* o : assembly.objects()) world->removeCollisionObject(o);
+  }
+
+  template <class Report>
+  void query_scene(const Report& report) {
+    World world(configuration_);
+    for (auto& o : objects_) world->addCollisionObject(o.get());
+    world->updateAabbs();
+    world->computeOverlappingPairs();
+    for_each_cached_pair(*world, [&](int a, int b) {
+      if (!filter_.drops(a, b)) report(a, b, query_points(*query_world_, object(a), object(b), 0));
+    });
     for (auto& o : objects_) world->removeCollisionObject(o.get());
   }
 

@@ -9,8 +9,9 @@ namespace {
 Point point_of(const btManifoldPoint& p, bool swapped) {
   const Vec3 on_0 = vec3(p.getPositionWorldOnA()), on_1 = vec3(p.getPositionWorldOnB());
   const Vec3 normal_10 = vec3(p.m_normalWorldOnB);
-  if (swapped) return {on_1, on_0, normal_10, static_cast<double>(p.getDistance())};
-  return {on_0, on_1, -normal_10, static_cast<double>(p.getDistance())};
+  const auto distance = static_cast<double>(p.getDistance());
+  if (swapped) return {on_1, on_0, normal_10, distance, p.m_index1, p.m_index0};
+  return {on_0, on_1, -normal_10, distance, p.m_index0, p.m_index1};
 }
 
 struct Collect : btCollisionWorld::ContactResultCallback {

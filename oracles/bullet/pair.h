@@ -11,7 +11,8 @@ namespace touchstone::bullet_adapter {
 /// One contact or closest point. Bullet's normals point from B to A and are reversed here.
 struct Point {
   Vec3 on_a, on_b, normal_ab;
-  double distance;  // < 0: penetration
+  double distance;       // < 0: penetration
+  int index_a, index_b;  // of a compound, the number of the child shape
 };
 
 /// btCollisionWorld::contactPairTest, which uses the closest-point algorithms (GJK and EPA for most pairs).

@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "core/base/input_error.h"
+#include "oracles/abi/height_field.h"
 #include "oracles/reproducer/engine_source.h"
 #include "oracles/reproducer/source_text.h"
 
@@ -20,6 +22,11 @@ std::string transform(const Pose& p) {
   const Quat q = normalized(p.rotation);
   return fmt::format("btTransform(btQuaternion({}, {}, {}, {}), {})", scalar(q.x), scalar(q.y), scalar(q.z),
                      scalar(q.w), vector(p.translation));
+}
+
+std::optional<kit::HeightField> height_field_of(const TriangleMesh& m) {
+  return kit::height_field_of({m.vertices.front().data(), 3 * m.vertices.size()},
+                              {m.triangles.front().data(), 3 * m.triangles.size()});
 }
 
 // Statements that create `shape_<i>`. The margin is set last, except for a hull, whose AABB is computed with
@@ -75,7 +82,21 @@ struct Maker {
     return plain("btConeShapeZ", scalar(s.inner.radius) + ", 2 * " + scalar(s.inner.half_height), false) +
            margin(s.padding);
   }
+  std::string height_field(const TriangleMesh& s, const kit::HeightField& f) const {
+    std::string out = fmt::format("  const btScalar heights_{}[] = {{", i);
+    double highest = 0;
+    for (const Vec3& v : s.vertices) {
+      out += (&v == &s.vertices.front() ? "" : ", ") + scalar(v.z());
+      highest = std::max(highest, std::abs(v.z()));
+    }
+    // The middle of the limits is at the origin.
+    return out + "};\n" +
+           plain("btHeightfieldTerrainShape", fmt::format("{0}, {1}, heights_{2}, -{3}, {3}, 2, true",
+                                                          f.columns, f.rows, i, scalar(highest))) +
+           fmt::format("  shape_{}.setLocalScaling({});\n", i, vector({f.cell[0], f.cell[1], 1}));
+  }
   std::string operator()(const TriangleMesh& s) const {
+    if (const auto field = height_field_of(s)) return height_field(s, *field);
     std::string out = fmt::format("  btTriangleMesh triangles_{};\n", i);
     for (const auto& t : s.triangles) {
       const auto corner = [&](std::size_t k) { return vector(s.vertices[static_cast<std::size_t>(t[k])]); };
@@ -139,9 +160,12 @@ Answer query(btCollisionWorld& world, btCollisionObject& a, btCollisionObject& b
 constexpr std::string_view simulate = R"(  w.world.performDiscreteCollisionDetection();
   for (int i = 0; i < w.dispatcher.getNumManifolds(); ++i) {
     const btPersistentManifold& m = *w.dispatcher.getManifoldByIndexInternal(i);
-    const bool straight = m.getBody0() == &object_@A@ && m.getBody1() == &object_@B@;
-    const bool swapped = m.getBody0() == &object_@B@ && m.getBody1() == &object_@A@;
-    for (int k = 0; (straight || swapped) && k < m.getNumContacts(); ++k) take(x, m.getContactPoint(k), swapped);
+    const bool straight = m.getBody0() == &@A@ && m.getBody1() == &@B@;
+    const bool swapped = m.getBody0() == &@B@ && m.getBody1() == &@A@;
+    for (int k = 0; (straight || swapped) && k < m.getNumContacts(); ++k) {
+      const btManifoldPoint& p = m.getContactPoint(k);
+      @CHILDREN@take(x, p, swapped);
+    }
   }
 )";
 
@@ -184,6 +208,23 @@ std::string shapes_of(const EngineQuestion& q, const std::vector<int>& bodies) {
 
 bool is_sim(const EngineQuestion& q) { return q.engine.find("-sim") != std::string_view::npos; }
 
+// The object that has a body's shape, and the number of the shape if the object is a compound.
+struct Holder {
+  std::string object;
+  int child = -1;
+};
+
+std::string simulated(const Holder& a, const Holder& b) {
+  std::string children;
+  const auto only = [&](const Holder& h, std::string_view index, std::string_view other) {
+    if (h.child >= 0)
+      children += fmt::format("if ((swapped ? p.{} : p.{}) != {}) continue;\n      ", other, index, h.child);
+  };
+  only(a, "m_index0", "m_index1");
+  only(b, "m_index1", "m_index0");
+  return filled(simulate, {{"A", a.object}, {"B", b.object}, {"CHILDREN", children}});
+}
+
 std::string pair_question(const EngineQuestion& q) {
   std::string out = shapes_of(q, {q.a, q.b}) + object(q, q.a) + object(q, q.b);
   if (is_sim(q))
@@ -191,7 +232,7 @@ std::string pair_question(const EngineQuestion& q) {
            fmt::format(
                "  w.world.addCollisionObject(&object_{});\n  w.world.addCollisionObject(&object_{});\n", q.a,
                q.b) +
-           with_names(simulate, q) +
+           simulated({"object_" + std::to_string(q.a)}, {"object_" + std::to_string(q.b)}) +
            fmt::format(
                "  w.world.removeCollisionObject(&object_{});\n  w.world.removeCollisionObject(&object_{});\n",
                q.a, q.b);
@@ -250,18 +291,55 @@ std::string candidates(const EngineQuestion& q) {
   return out + "  x.overlap = found;\n";
 }
 
+// The convex bodies of each group as one object, as the adapter makes them; all others as they are.
+std::vector<Holder> holders(const EngineQuestion& q, std::string& out) {
+  std::vector<Holder> all;
+  std::map<int, int> convex_in, children;
+  const auto is_part = [&](int i) { return q.body(i).group >= 0 && has_support(q.scene.shape_of(i)); };
+  const auto count = static_cast<int>(q.scene.bodies.size());
+  for (int i = 0; i < count; ++i) convex_in[q.body(i).group] += is_part(i);
+  for (int i = 0; i < count; ++i) {
+    const int group = q.body(i).group;
+    if (!is_part(i) || convex_in[group] < 2) {
+      all.push_back({fmt::format("object_{}", i)});
+      continue;
+    }
+    if (children[group] == 0)
+      out += fmt::format(
+          "  btCompoundShape compound_{0};\n  btCollisionObject link_{0};\n"
+          "  link_{0}.setWorldTransform(object_{1}.getWorldTransform());\n"
+          "  link_{0}.setCollisionShape(&compound_{0});\n",
+          group, i);
+    out += fmt::format(
+        "  compound_{0}.addChildShape(link_{0}.getWorldTransform().inverse() * "
+        "object_{1}.getWorldTransform(), &shape_{2});\n",
+        group, i, q.body(i).shape);
+    all.push_back({fmt::format("link_{}", group), children[group]++});
+  }
+  return all;
+}
+
+std::string for_each_object(const std::vector<Holder>& all, std::string_view call) {
+  std::string out;
+  for (const Holder& h : all)
+    if (h.child <= 0) out += fmt::format("  w.world.{}(&{});\n", call, h.object);
+  return out;
+}
+
 std::string scene_contacts(const EngineQuestion& q) {
   std::string out = all_objects(q);
-  for (std::size_t i = 0; i < q.scene.bodies.size(); ++i)
-    out += fmt::format("  w.world.addCollisionObject(&object_{});\n", i);
+  std::vector<Holder> all;
   if (is_sim(q))
-    out += with_names(simulate, q);
+    all = holders(q, out);
+  else
+    for (std::size_t i = 0; i < q.scene.bodies.size(); ++i) all.push_back({fmt::format("object_{}", i)});
+  out += for_each_object(all, "addCollisionObject");
+  if (is_sim(q))
+    out += simulated(all[static_cast<std::size_t>(q.a)], all[static_cast<std::size_t>(q.b)]);
   else
     out += "  bool found = false;\n" + with_names(find_pair, q) +
            fmt::format("  if (found) x = query(w.world, object_{}, object_{});\n", q.a, q.b);
-  for (std::size_t i = 0; i < q.scene.bodies.size(); ++i)
-    out += fmt::format("  w.world.removeCollisionObject(&object_{});\n", i);
-  return out;
+  return out + for_each_object(all, "removeCollisionObject");
 }
 
 // The broad phases as separate engines, under the names used for certification.
@@ -347,6 +425,14 @@ std::string body_of(const EngineQuestion& q) {
   return pair_question(q);
 }
 
+std::string includes_of_fields(const EngineQuestion& q) {
+  const bool any = std::ranges::any_of(q.scene.shapes, [](const Shape& s) {
+    const auto* m = std::get_if<TriangleMesh>(&s);
+    return m && height_field_of(*m);
+  });
+  return any ? "#include <BulletCollision/CollisionShapes/btHeightfieldTerrainShape.h>\n" : "";
+}
+
 EngineSource source(const EngineQuestion& q) {
   const bool f64 = q.engine.starts_with("bullet-f64");
   EngineSource out;
@@ -361,6 +447,7 @@ EngineSource source(const EngineQuestion& q) {
     out.code += filled(query_helper,
                        {{"THRESHOLD", q.question == Question::distance ? "btScalar(BT_LARGE_FLOAT)" : "0"}});
   if (is_phase(q)) out.includes += "#include <BulletCollision/BroadphaseCollision/btSimpleBroadphase.h>\n";
+  out.includes += includes_of_fields(q);
   out.code += "Answer ask() {\n  [[maybe_unused]] World w;\n  Answer x;\n" + body_of(q) + "  return x;\n}\n";
   return out;
 }

@@ -1,5 +1,12 @@
 #include "oracles/bullet/shapes.h"
 
+#include <BulletCollision/CollisionShapes/btHeightfieldTerrainShape.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "oracles/abi/height_field.h"
+
 namespace touchstone::bullet_adapter {
 namespace {
 
@@ -34,7 +41,35 @@ std::unique_ptr<btCollisionShape> make_plane(const ts_shape& asked) {
   return std::make_unique<btStaticPlaneShape>(vector(unit.data()), scalar(asked.size[3] / length));
 }
 
+// Bullet puts the middle between the limits of the heights at the origin, so these are opposite numbers here.
+// It computes the vertices that `out` gets.
+std::unique_ptr<btCollisionShape> make_height_field(const ts_shape& asked, const kit::HeightField& field,
+                                                    Shape& out) {
+  btScalar highest = 0;
+  for (std::size_t i = 0; i < asked.vertex_count; ++i) {
+    out.heights.push_back(scalar(asked.vertices[3 * i + 2]));
+    highest = std::max(highest, std::abs(out.heights.back()));
+  }
+  const btVector3 scaling(scalar(field.cell[0]), scalar(field.cell[1]), 1);
+  const auto place = [](std::size_t i, std::size_t n) {
+    return -static_cast<btScalar>(n - 1) / 2 + static_cast<btScalar>(i);
+  };
+  for (std::size_t i = 0; i < asked.vertex_count; ++i)
+    out.mesh_vertices.insert(out.mesh_vertices.end(),
+                             {place(i % field.columns, field.columns) * scaling.x(),
+                              place(i / field.columns, field.rows) * scaling.y(), out.heights[i]});
+  auto shape = std::make_unique<btHeightfieldTerrainShape>(
+      static_cast<int>(field.columns), static_cast<int>(field.rows), out.heights.data(), -highest, highest,
+      /*upAxis=*/2, /*flipQuadEdges=*/true);
+  shape->setFlipTriangleWinding(true);
+  shape->setLocalScaling(scaling);
+  return shape;
+}
+
 std::unique_ptr<btCollisionShape> make_mesh(const ts_shape& asked, Shape& out) {
+  const auto field = kit::height_field_of({asked.vertices, 3 * asked.vertex_count},
+                                          {asked.triangles, 3 * asked.triangle_count});
+  if (field) return make_height_field(asked, *field, out);
   for (std::size_t i = 0; i < 3 * asked.vertex_count; ++i)
     out.mesh_vertices.push_back(scalar(asked.vertices[i]));
   out.mesh_indices.assign(asked.triangles, asked.triangles + 3 * asked.triangle_count);

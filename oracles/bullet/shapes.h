@@ -26,6 +26,7 @@ struct Shape {
   int kind = 0;  // ts_shape_kind
   std::vector<btScalar> mesh_vertices;
   std::vector<int> mesh_indices;
+  std::vector<btScalar> heights;  // of a mesh that is a height field
   std::unique_ptr<btTriangleIndexVertexArray> mesh;
   std::unique_ptr<btCollisionShape> shape;  // null: Bullet has no such shape, e.g. no ellipsoid
   bool is_convex() const { return shape && shape->isConvex(); }

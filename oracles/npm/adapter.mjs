@@ -48,6 +48,33 @@ export class Heap {
 }
 export const stands_on_z = (shape) => ["capsule", "cylinder", "cone"].includes(shape.type);
 
+// Coordinates of a grid may differ by a few roundings from multiples of the cell's length, as share of the whole length:
+// oracles/abi/height_field.h.
+const grid_roundings = 2 ** -50;
+function even_step(places) {
+  const n = places.length, length = places[n - 1] - places[0], step = length / (n - 1);
+  const is_even = places.every((x, k) => Math.abs(x - step * (k - (n - 1) / 2)) <= grid_roundings * length);
+  return length > 0 && is_even ? step : 0;
+}
+/**
+ * {rows, columns, cell: [x, y]} of a mesh that is written as a scene's height fields are, else null: height_field_of() of
+ * oracles/abi/height_field.h. The heights are the z of its vertices, row by row.
+ */
+export function height_field_of({ type, vertices, triangles }) {
+  if (type !== "mesh" || triangles[0][0] !== 0 || triangles[0][1] !== 1 || triangles[0][2] < 3) return null;
+  const columns = triangles[0][2] - 1, rows = vertices.length / columns;
+  if (!(rows >= 2) || !Number.isInteger(rows) || triangles.length !== 2 * (rows - 1) * (columns - 1)) return null;
+  const is_of_grid = triangles.every((t, k) => {
+    const cell = k >> 1, corner = Math.floor(cell / (columns - 1)) * columns + cell % (columns - 1), above = corner + columns;
+    const wanted = k & 1 ? [corner, above + 1, above] : [corner, corner + 1, above + 1];
+    return t.every((v, i) => v === wanted[i]);
+  });
+  const xs = vertices.slice(0, columns).map((v) => v[0]), ys = vertices.filter((_, k) => k % columns === 0).map((v) => v[1]);
+  const is_on_grid = vertices.every((v, k) => v[0] === xs[k % columns] && v[1] === ys[Math.floor(k / columns)]);
+  const cell = [even_step(xs), even_step(ys)];
+  return is_of_grid && is_on_grid && cell[0] > 0 && cell[1] > 0 ? { rows, columns, cell } : null;
+}
+
 /** The requested rotation, normalised in doubles. */
 export function unit(q) {
   const most = Math.max(...q.map(Math.abs)), scaled = q.map((c) => c / most), n = Math.hypot(...scaled);
@@ -59,6 +86,12 @@ export function unit_quaternion(q, to_y) {
   const [x, y, z, w] = unit(q), s = to_y ? half_turn : 1;
   const turned = to_y ? [x + w, y + z, z - y, w - x] : [x, y, z, w];
   return turned.map((c) => f(c * s));
+}
+
+/** The same for an engine whose x, y, z are our y, z, x. */
+export function unit_quaternion_cycled(q) {
+  const [x, y, z, w] = unit(q);
+  return [w + x + y - z, w - x + y + z, w + x - y + z, w - x - y - z].map((c) => f(c / 2));
 }
 
 /** The same for an engine whose axis is x. */

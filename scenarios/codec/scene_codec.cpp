@@ -158,12 +158,8 @@ Shape read_height_field(const JsonReader& r) {
       r["heights"].fail(fmt::format("has more than {} heights", most_heights));
   }
   if (heights.size() < 2) r["heights"].fail("has fewer than two rows");
-  const auto offset = [](std::size_t i, std::size_t n) {
-    return static_cast<double>(i) - static_cast<double>(n - 1) / 2;
-  };
-  return height_surface(heights.size(), heights.front().size(), [&](std::size_t j, std::size_t i) {
-    return Vec3(dx * offset(i, heights.front().size()), dy * offset(j, heights.size()), heights[j][i]);
-  });
+  return centred_height_surface(heights.size(), heights.front().size(), dx, dy,
+                                [&](std::size_t row, std::size_t column) { return heights[row][column]; });
 }
 
 Shape read_shape(const JsonReader& r) {

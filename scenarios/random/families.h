@@ -83,6 +83,12 @@ void margins(Rng& rng, Case& c);
 void loose_crowd(Rng& rng, Case& c);
 void rays(Rng& rng, Case& c);
 
+// Height fields, centred at the origin and with the diagonals of height_surface.h, against convex bodies, and
+// groups of convex shapes as the links of a robot are, on a ground or in the air.
+
+void height_fields(Rng& rng, Case& c);
+void compounds(Rng& rng, Case& c);
+
 // A smooth motion in 4 to 16 frames (motions.h): candidates in every frame, contacts in the first.
 
 void motions(Rng& rng, Case& c);

@@ -213,6 +213,7 @@ constexpr std::size_t first_later = 28;
 // Those from here on replace a share of the cases of all before them in the same way.
 constexpr std::size_t first_of_margins = 30;
 constexpr std::size_t first_padded = 33;
+constexpr std::size_t first_of_grounds = 34;
 
 constexpr Family catalog[] = {
     {"separate", "disjoint pairs, gap 0.1 % to 100 % of their size", 14, separate},
@@ -251,6 +252,10 @@ constexpr Family catalog[] = {
     {"rays", "rays at and past faces, edges, corners; from inside; ending on the surface", 3, rays},
     {"padded", "padded cylinders, cones, ellipsoids, hulls against any shape: apart to concentric", 4,
      padded_shapes},
+    {"fields",
+     "height fields against convex bodies: apart, touching, deep, beyond the border, in motion, rays", 4,
+     height_fields},
+    {"compounds", "2 to 5 bodies of 1 to 5 convex shapes each, some on a ground: contacts", 2, compounds},
     // Only when asked for by name: a case takes as long as a hundred others.
     {"endless", "2 to 5 bodies, 300 to 699 queries about their pairs in any order", 0, endless_dialogue},
     // Only when asked for by name: `stability --motions` judges every frame and what changes between them.
@@ -261,6 +266,7 @@ constexpr Family catalog[] = {
 static_assert(catalog[first_later - 1].name == "dialogue");
 static_assert(catalog[first_of_margins - 1].name == "surfaces");
 static_assert(catalog[first_padded - 1].name == "rays");
+static_assert(catalog[first_of_grounds - 1].name == "padded");
 
 int total_weight(std::span<const Family> families) {
   return std::accumulate(families.begin(), families.end(), 0,
@@ -293,7 +299,7 @@ const Family& pick(Rng& rng, std::span<const Family* const> among) {
 
 // Streams separate from the case's own.
 constexpr std::uint64_t later_stream = 0x6c61746572ULL, margins_stream = 0x6d617267696e73ULL,
-                        padded_stream = 0x706164646564ULL;
+                        padded_stream = 0x706164646564ULL, grounds_stream = 0x67726f756e6473ULL;
 
 // One of the families from `first` on, by its share of all up to `end`; null: none of them.
 const Family* pick_later(std::uint64_t stream, std::uint64_t index, std::size_t first, std::size_t end) {
@@ -313,8 +319,9 @@ const Family& pick(Rng& rng, std::uint64_t seed, std::uint64_t index, std::strin
       named_here[static_cast<std::size_t>(&named(name) - catalog)] = true;
     });
   if (names.empty()) {
-    if (const Family* f = pick_later(seed ^ padded_stream, index, first_padded, std::size(catalog)))
+    if (const Family* f = pick_later(seed ^ grounds_stream, index, first_of_grounds, std::size(catalog)))
       return *f;
+    if (const Family* f = pick_later(seed ^ padded_stream, index, first_padded, first_of_grounds)) return *f;
     if (const Family* f = pick_later(seed ^ margins_stream, index, first_of_margins, first_padded)) return *f;
     if (const Family* f = pick_later(seed ^ later_stream, index, first_later, first_of_margins)) return *f;
   }

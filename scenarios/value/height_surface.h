@@ -26,4 +26,17 @@ TriangleMesh height_surface(std::size_t rows, std::size_t columns, At&& at) {
   return m;
 }
 
+/// The same with cells of dx times dy, centred at the origin: what a scene's "height_field" denotes. The
+/// height is height(row, column).
+template <class Height>
+TriangleMesh centred_height_surface(std::size_t rows, std::size_t columns, double dx, double dy,
+                                    Height&& height) {
+  const auto offset = [](std::size_t i, std::size_t n) {
+    return static_cast<double>(i) - static_cast<double>(n - 1) / 2;
+  };
+  return height_surface(rows, columns, [&](std::size_t r, std::size_t c) {
+    return Vec3(dx * offset(c, columns), dy * offset(r, rows), height(r, c));
+  });
+}
+
 }  // namespace touchstone

@@ -319,7 +319,9 @@ int run(std::uint64_t seed, std::uint64_t count, const fs::path& folder) {
                    g.damaged.c_str(), kept.c_str(), fault.c_str());
       return 1;
     }
-    ++accepted;
+    constexpr std::uint64_t report_every = 20000;
+    if (++accepted % report_every == 0)
+      std::fprintf(stderr, "%llu damaged files so far\n", static_cast<unsigned long long>(accepted));
   }
   std::printf("%llu damaged files: each read, or refused by name; none outside the folder was opened\n",
               static_cast<unsigned long long>(accepted));

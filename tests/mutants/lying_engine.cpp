@@ -40,7 +40,7 @@ const std::vector<Mutant>& mutants() {
          {broad_list_lies,     broad_box_lies, broad_script_lies, overlap_lies, distance_lies, normal_lies,
           depth_lies,          manifold_lies,  impact_lies,       outcome_lies, scene_lies,    relation_lies,
           regime_lies,         memory_lies,    swept_lies,        trigger_lies, symptom_lies,  margin_lies,
-          margin_contact_lies, gradient_lies,  solid_lies})
+          margin_contact_lies, gradient_lies,  solid_lies,        ground_lies})
       for (Mutant& m : topic()) list.push_back(std::move(m));
     return list;
   }();

@@ -19,7 +19,7 @@ std::vector<Mutant> impact_lies();
 std::vector<Mutant> gradient_lies();
 std::vector<Mutant> margin_lies();  // margins, bounds, rays
 std::vector<Mutant> margin_contact_lies();
-std::vector<Mutant> swept_lies();   // the broad phase of a step
+std::vector<Mutant> swept_lies();  // the broad phase of a step
 std::vector<Mutant> outcome_lies();
 std::vector<Mutant> scene_lies();
 std::vector<Mutant> relation_lies();  // visible only in another form of the case
@@ -28,5 +28,6 @@ std::vector<Mutant> memory_lies();    // earlier questions
 std::vector<Mutant> trigger_lies();   // the same wrong answer in other cases
 std::vector<Mutant> symptom_lies();   // the same wrong answer for other reasons
 std::vector<Mutant> solid_lies();     // solid meshes
+std::vector<Mutant> ground_lies();    // height fields, bodies of several shapes
 
 }  // namespace touchstone::mutants

@@ -121,6 +121,36 @@ TEST_CASE("scene contacts are the overlapping pairs, normals from the smaller in
   CHECK(contacts >= 12);
 }
 
+TEST_CASE("the shapes of a group are parts of one body, and contacts name them",
+          "[oracles][conformance][optional]") {
+  if (built_plugins().empty()) return test::skip("no engine is built in");
+  Scene scene;
+  scene.shapes = {Sphere{1}, Box{Vec3(1, 1, 1)}};
+  const std::pair<double, double> places[] = {{0, 0}, {5, 0}, {10, 0}, {10, 1.5}, {0, 1.5}, {5, 3}};
+  for (const auto& [x, y] : places) scene.bodies.push_back(at(0, Vec3(x, y, 0)));
+  scene.bodies.push_back(at(1, Vec3(5, 4.5, 0)));  // of no group, in contact with the last one
+  for (std::size_t i = 0; i < 6; ++i) scene.bodies[i].group = i < 3 ? 4 : 9;
+  scene.bodies[0].pose.rotation = {0, 0, 1, 1};  // where a group's first part is turned
+  scene.bodies[4].pose.rotation = {1, 2, 3, 4};
+  const std::set<BodyPair> expected{{0, 4}, {2, 3}, {5, 6}};
+  int checked = 0;
+  for_each_engine([&](Subject s) {
+    if (!has_broad_phase(s)) return;
+    INFO("engine " << s.name);
+    const Observation o = ask(s, case_of(scene, {{Question::scene_contacts, 0, 0}})).answers[0];
+    REQUIRE(o.outcome == Outcome::answered);
+    std::set<BodyPair> found;
+    for (const SceneContact& c : o.contacts) {
+      found.insert({c.a, c.b});
+      CHECK(c.normal.y() > 0.98);
+      CHECK(std::abs(c.depth - 0.5) < 0.02 + 2 * o.claimed_tolerance);
+    }
+    CHECK(found == expected);
+    ++checked;
+  });
+  if (checked == 0) test::skip("no engine with a broad phase is built in");
+}
+
 TEST_CASE("a scene with a shape that an engine lacks is unsupported as a whole",
           "[oracles][conformance][optional]") {
   if (built_plugins().empty()) return test::skip("no engine is built in");

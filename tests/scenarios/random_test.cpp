@@ -69,8 +69,9 @@ TEST_CASE("cases of given kinds have no others, in nearly all families, and depe
   }
   CHECK(others == 0);
   CHECK(pairs.size() >= 9);
-  // Without those of meshes, of hulls of many vertices, of rounded boxes and with half-spaces and meshes.
-  CHECK(families.size() >= mixed_families() - 5);
+  // Without those of meshes and height fields, of hulls of many vertices, of rounded boxes and with
+  // half-spaces and meshes.
+  CHECK(families.size() >= mixed_families() - 6);
   // No body can be made of these alone: they are drawn as ever.
   const std::vector<ShapeKind> unbounded{ShapeKind::half_space};
   CHECK(fuzz::make_case(3, 1, "deep", unbounded).scene.bodies.size() == 2);

@@ -215,7 +215,8 @@ inline constexpr double parted_for_points = 0x1p-44;
 /// be expanded. B is moved a little along the best normal: the distance of bodies that are apart is easy to
 /// find, and its normal is the next direction. Where bodies touch along m, moving B along m by t makes their
 /// distance t along m: a fixed point, which an error in the direction approaches by t / (r + t) each time, r
-/// being the radius of curvature of B − A.
+/// being the radius of curvature of B − A. Where that is nearly 1 (an edge almost along a rim), the steps are
+/// nearly in proportion: the least depth on the way to twice their limit (Aitken's extrapolation) is taken.
 template <class R>
 void part_a_little(EpaResult<R>& e, const ConvexCore<R>& a, const ConvexCore<R>& b, R size, R tolerance) {
   constexpr int most = 8;
@@ -225,16 +226,31 @@ void part_a_little(EpaResult<R>& e, const ConvexCore<R>& a, const ConvexCore<R>&
     moved.frame.translation += shift;
     return gjk<R>(a, moved, tolerance, tolerance / 4, budget);
   };
-  for (int i = 0; i < most; ++i) {
+  const auto height = [&](const V3<R>& n) { return -n.dot(Difference<R>{a, b}.support(-n).w); };
+  const R noise = rounding::wide_support_noise * std::numeric_limits<R>::epsilon() * size;
+  R last = 0;  // length of the step before
+  for (int i = 0; i < most && e.upper > tolerance; ++i) {
     const V3<R> shift = R(parted_for_normal) * size * e.normal;
     const Distance<R> g = parted(shift);
     if (g.status != GjkStatus::separated) return;
-    const R depth = -g.normal.dot(Difference<R>{a, b}.support(-g.normal).w);
+    const R depth = height(g.normal);
     if (!(depth < e.upper)) break;
+    const V3<R> step = g.normal - e.normal;
     e.upper = depth;
     e.normal = g.normal;
     e.a = g.a;
     e.b = g.b - shift;
+    const R length = step.norm();
+    const bool shrinks = length < last;
+    const R farthest = 2 * length / (last - length);
+    last = shrinks ? R(0) : length;
+    if (!shrinks) continue;
+    const auto ahead = [&](R x) { return V3<R>((g.normal + x * step).normalized()); };
+    const auto [x, least] =
+        detail::least_between<R>(0, farthest, noise, [&](R at) { return height(ahead(at)); });
+    if (!(least < e.upper)) continue;
+    e.upper = least;
+    e.normal = ahead(x);
   }
   const V3<R> shift = R(parted_for_points) * size * e.normal;
   const Distance<R> g = parted(shift);

@@ -38,7 +38,7 @@ function make_world() {
 }
 const physics = make_world().GetPhysicsSystem(), bodies = physics.GetBodyInterface();
 const every_layer = new Jolt.BroadPhaseLayerFilter(), every_object = new Jolt.ObjectLayerFilter();
-const every_shape = new Jolt.ShapeFilter(), one = new Jolt.Vec3(1, 1, 1), origin = new Jolt.RVec3(0, 0, 0);
+const every_shape = new Jolt.ShapeFilter(), no_turn = new Jolt.Quat(0, 0, 0, 1), one = new Jolt.Vec3(1, 1, 1), origin = new Jolt.RVec3(0, 0, 0);
 
 function settings_of(s) {
   const convex = (most) => (tuned ? 0 : Math.min(default_radius, most));
@@ -55,8 +55,45 @@ function settings_of(s) {
       hull.mHullTolerance = hull_tolerance;
       return hull;
     }
+    case "mesh": return field_settings(s) ?? mesh_settings(s);
     default: throw new kit.Unsupported(`the adapter does not support Jolt's ${s.type}`);
   }
+}
+function mesh_settings({ vertices, triangles }) {
+  const list = keep(new Jolt.TriangleList());
+  for (const t of triangles) list.push_back(keep(new Jolt.Triangle(...t.map((k) => vec(vertices[k])))));
+  return new Jolt.MeshShapeSettings(list);
+}
+// Jolt's x, y, z are our y, z, x here, so that its cells have the same diagonal. Its fields are square: what is
+// missing is a gap. HeightFieldShape.h: mSampleCount is at least twice mBlockSize.
+const block_size = 2, height_bits = tuned ? 16 : 8;
+function field_settings(s) {
+  const field = kit.height_field_of(s);
+  if (!field) return null;
+  const { rows, columns, cell } = field, blocks = Math.max(2, Math.ceil(Math.max(rows, columns) / block_size));
+  const made = new Jolt.HeightFieldShapeSettings(), n = made.mSampleCount = block_size * blocks;
+  const gap = Jolt.HeightFieldShapeConstantValues.prototype.cNoCollisionValue;
+  made.mBlockSize = block_size;
+  made.mBitsPerSample = height_bits;
+  made.mOffset = vec([-cell[1] * (rows - 1) / 2, 0, -cell[0] * (columns - 1) / 2]);
+  made.mScale = vec([cell[1], 1, cell[0]]);
+  for (let c = 0; c < n; ++c)
+    for (let r = 0; r < n; ++r) made.mHeightSamples.push_back(r < rows && c < columns ? s.vertices[r * columns + c][2] : gap);
+  return made;
+}
+
+// The triangles that Jolt holds: those of a mesh with coordinates of 21 bits, and none without area.
+function held_triangles(shape, is_field) {
+  const all = new Jolt.ShapeGetTriangles(shape, Jolt.AABox.prototype.sBiggest(), vec([0, 0, 0]), no_turn, one);
+  const numbers = new Float32Array(Jolt.HEAPF32.buffer, all.GetVerticesData(), 9 * all.GetNumTriangles()).slice();
+  Jolt.destroy(all);
+  const vertices = [], triangles = [];
+  for (let k = 0; k < numbers.length; k += 3) {
+    const [x, y, z] = numbers.slice(k, k + 3);
+    vertices.push(is_field ? [z, x, y] : [x, y, z]);
+    if (k % 9 === 0) triangles.push([0, 1, 2].map((i) => k / 3 + i));
+  }
+  return { type: "mesh", vertices, triangles };
 }
 
 function make_shape(s) {
@@ -69,17 +106,24 @@ function make_shape(s) {
 }
 
 // How far a rounded corner, edge or rim may fall short, and a hull's points may stick out.
+const height_step = ({ vertices }) => {
+  const heights = vertices.map((v) => v[2]);
+  return (Math.max(...heights) - Math.min(...heights)) / (2 ** height_bits - 1); // HeightFieldShape.h, mBitsPerSample
+};
 function claim_of(s) {
-  if (tuned) return 0;
+  if (tuned) return s.type === "mesh" && kit.height_field_of(s) ? height_step(s) : 0;
   if (s.type === "hull") return default_radius + hull_tolerance; // mMaxErrorConvexRadius, mHullTolerance
+  if (s.type === "mesh" && kit.height_field_of(s)) return height_step(s);
   if (s.type === "box") return (Math.sqrt(3) - 1) * Math.min(default_radius, ...s.half_extents);
   return s.type === "cylinder" ? (Math.SQRT2 - 1) * Math.min(default_radius, s.radius, s.half_height) : 0;
 }
 
 let shapes = [];
 const shape_of = (scene, body) => scene.shapes[scene.bodies[body].shape];
-const rotation_of = (scene, body, pose) =>
-  keep(new Jolt.Quat(...kit.unit_quaternion(pose.rotation, kit.stands_on_z(shape_of(scene, body)))));
+const rotation_of = (scene, body, pose) => {
+  const s = shape_of(scene, body), is_field = kit.height_field_of(s) !== null;
+  return keep(new Jolt.Quat(...(is_field ? kit.unit_quaternion_cycled(pose.rotation) : kit.unit_quaternion(pose.rotation, kit.stands_on_z(s)))));
+};
 
 // A value returned by a function is overwritten by its next call, so it has to be copied.
 function copy_of(m) {
@@ -105,13 +149,18 @@ function transformed(p) {
 
 // Also finds the closest points of shapes that are apart by no more than `reach`. Jolt inflates one shape by it, and
 // 1e15 would leave no digits. The distance between the centres of mass suffices for any, since both shapes contain theirs.
+// A mesh may be anywhere about its own.
+const farthest_vertex = (s) => (s.type === "mesh" ? Math.max(...s.vertices.map((v) => Math.hypot(...v))) : 0);
 const any = (x, y) => reach_slack * Math.hypot(...x.map((c, k) => c - y[k]));
+const is_mesh = (scene, body) => shape_of(scene, body).type === "mesh";
 function collide(scene, a, b, reach) {
+  if (is_mesh(scene, a) && is_mesh(scene, b)) throw new kit.Unsupported("Jolt does not collide meshes with meshes");
   const settings = keep(new Jolt.CollideShapeSettings());
   settings.mCollisionTolerance = settings.mPenetrationTolerance = tolerance;
   const found = keep(new Jolt.CollideShapeClosestHitCollisionCollector());
   const [p, q] = [placed(scene, a), placed(scene, b)], [x, y] = [p, q].map((s) => list(s.mass_centre.GetTranslation()));
-  settings.mMaxSeparationDistance = reach === any ? any(x, y) : reach;
+  settings.mMaxSeparationDistance = reach === any ? any(x, y) + Math.max(0, ...[a, b].map((body) => farthest_vertex(shape_of(scene, body)))) : reach;
+  settings.mBackFaceMode = Jolt.EBackFaceMode_CollideWithBackFaces; // a mesh is a surface
   // In the result, shape 1 is the argument and shape 2 the transformed shape.
   transformed(q).CollideShape(p.shape, one, p.mass_centre, settings, origin, found, every_shape);
   return found.HadHit() ? found.mHit : null;
@@ -136,7 +185,7 @@ class World {
   }
   insert(body, pose) {
     const s = this.scene.bodies[body], at = keep(new Jolt.BodyCreationSettings(shapes[s.shape], rvec(pose.translation),
-      rotation_of(this.scene, body, pose), s.static ? Jolt.EMotionType_Static : Jolt.EMotionType_Kinematic, 0));
+      rotation_of(this.scene, body, pose), s.static || is_mesh(this.scene, body) ? Jolt.EMotionType_Static : Jolt.EMotionType_Kinematic, 0));
     const made = bodies.CreateBody(at);
     bodies.AddBody(made.GetID(), Jolt.EActivation_DontActivate);
     this.ids.set(body, made);
@@ -181,10 +230,15 @@ const engine = {
     const held = scene.bodies.map((b, body) => {
       const m = matrix_of(rotation_of(scene, body, b.pose), b.pose.translation);
       const columns = [list(m.GetAxisX()), list(m.GetAxisY()), list(m.GetAxisZ())];
-      return kit.received_body(body, b, columns, kit.stands_on_z(shape_of(scene, body)));
+      const is_field = kit.height_field_of(shape_of(scene, body)) !== null;
+      const ours = is_field ? [columns[2], columns[0], columns[1]] : columns;
+      return kit.received_body(body, b, ours, !is_field && kit.stands_on_z(shape_of(scene, body)));
     });
+    const held_shape = (s, k) => s.type === "mesh"
+      ? { shape: k, as: held_triangles(shapes[k], kit.height_field_of(s) !== null) } : kit.received_shape(s, k);
+    const sized = scene.shapes.map(held_shape);
     sweep();
-    return { shapes: scene.shapes.map(kit.received_shape), bodies: held };
+    return { shapes: sized, bodies: held };
   },
   overlap({ a, b }, scene) {
     return { overlap: collide(scene, a, b, 0) !== null, claimed_tolerance: claim(scene, a, b) };
@@ -201,11 +255,15 @@ const engine = {
     return answer;
   },
   ...kit.margin_questions(closest), // CollideShape.h, mMaxSeparationDistance
-  time_of_impact({ a, b }, scene) {
+  // Of a mesh and a convex shape, the convex one is cast.
+  time_of_impact({ a: first, b: second }, scene) {
+    const [a, b] = is_mesh(scene, first) ? [second, first] : [first, second];
+    if (is_mesh(scene, a)) throw new kit.Unsupported("Jolt casts no meshes");
     const translation = kit.relative_translation(scene.bodies[a], scene.bodies[b]);
     const [p, q] = [placed(scene, a), placed(scene, b)], settings = keep(new Jolt.ShapeCastSettings());
     settings.mCollisionTolerance = settings.mPenetrationTolerance = tolerance;
-    if (tuned) settings.mBackFaceModeConvex = settings.mBackFaceModeTriangles = Jolt.EBackFaceMode_CollideWithBackFaces;
+    settings.mBackFaceModeTriangles = Jolt.EBackFaceMode_CollideWithBackFaces;
+    if (tuned) settings.mBackFaceModeConvex = Jolt.EBackFaceMode_CollideWithBackFaces;
     const found = keep(new Jolt.CastShapeClosestHitCollisionCollector());
     const cast = keep(new Jolt.RShapeCast(p.shape, one, p.mass_centre, vec(translation)));
     transformed(q).CastShape(cast, settings, origin, found, every_shape);

@@ -53,25 +53,45 @@ function plane_frame({ normal, offset }) {
 }
 const wxyz = ([x, y, z, w]) => `${w} ${x} ${y} ${z}`;
 
-function xml_of(scene) {
+// The scene's bodies by the bodies of the model that have them as geoms: each alone, or, `linked`, those of one group
+// together.
+function links_of(scene, linked) {
+  const links = new Map();
+  scene.bodies.forEach((b, k) => {
+    const key = linked && b.group >= 0 && shape_of(scene, k).type !== "half_space" ? `group ${b.group}` : k;
+    links.set(key, [...(links.get(key) ?? []), k]);
+  });
+  return [...links.values()];
+}
+const placed = (at, rotation) => `pos="${at.join(" ")}" quat="${wxyz(rotation)}"`;
+// Of a body, as seen from another one.
+function relative(pose, from) {
+  const [x, y, z, w] = kit.unit(pose.rotation), [i, j, k, l] = kit.unit(from.rotation);
+  const turn = [l * x - i * w - j * z + k * y, l * y + i * z - j * w - k * x, l * z - i * y + j * x - k * w, l * w + i * x + j * y + k * z];
+  const apart = pose.translation.map((c, n) => c - from.translation[n]);
+  return placed(kit.columns_of([i, j, k, l]).map((c) => c[0] * apart[0] + c[1] * apart[1] + c[2] * apart[2]), kit.unit(turn));
+}
+
+function xml_of(scene, links) {
   const meshes = scene.shapes.map((s, k) => s.type === "hull"
     ? `<mesh name="m${k}" inertia="shell" vertex="${s.vertices.flat().join(" ")}"/>` : "");
-  const bodies = scene.bodies.map((b) => {
-    const s = scene.shapes[b.shape], at = `pos="${b.pose.translation.join(" ")}" quat="${wxyz(kit.unit(b.pose.rotation))}"`;
+  const bodies = links.map(([first, ...others]) => {
+    const b = scene.bodies[first], s = scene.shapes[b.shape], at = placed(b.pose.translation, kit.unit(b.pose.rotation));
     const free = s.type === "half_space" ? "" : '<freejoint/><inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/>';
-    return `<body ${at}>${free}<geom ${geom_of(s, b.shape)}/></body>`;
+    const geoms = others.map((k) => `<geom ${geom_of(shape_of(scene, k), scene.bodies[k].shape)} ${relative(scene.bodies[k].pose, b.pose)}/>`);
+    return `<body ${at}>${free}<geom ${geom_of(s, b.shape)}/>${geoms.join("")}</body>`;
   });
   return `<mujoco><option>${flags}</option><asset>${meshes.join("")}</asset>`
     + `<worldbody>${bodies.join("")}</worldbody></mujoco>`;
 }
 
 let model = null, data = null;
-function compile(scene) {
+function compile(scene, links) {
   data?.delete();
   model?.delete();
   data = model = null;
   try {
-    model = mj.MjModel.from_xml_string(xml_of(scene));
+    model = mj.MjModel.from_xml_string(xml_of(scene, links));
   } catch (why) {
     throw new kit.Unsupported(`MuJoCo's compiler refuses the scene: ${String(why.message || why).split("\n").join(" ")}`);
   }
@@ -102,6 +122,17 @@ function contacts(a, b) {
   }
   all.delete();
   return out;
+}
+// All contacts of the scene whose groups are bodies of several geoms; by the numbers of the scene's bodies.
+function linked_contacts(scene) {
+  const links = links_of(scene, true), order = links.flat();
+  if (links.length === order.length) return contacts();
+  try {
+    compile(scene, links);
+    return contacts().map((c) => ({ ...c, geom: c.geom.map((k) => order[k]) }));
+  } finally {
+    compile(scene, links_of(scene, false));
+  }
 }
 // mjmodel.h: vertices of a mesh are floats; they are also turned into the frame of its inertia and back.
 const vertex_roundings = 4;
@@ -171,7 +202,7 @@ const engine = {
       + "mjmodel.h: vertices of meshes are float",
   },
   load(scene) {
-    compile(scene);
+    compile(scene, links_of(scene, false));
     const shapes = new Map();
     scene.bodies.forEach((b, geom) => {
       const s = scene.shapes[b.shape];
@@ -206,7 +237,7 @@ const engine = {
     const drops = kit.filter_of(scene), pairs = new Map(), planes = [...scene.bodies.keys()].filter((k) =>
       shape_of(scene, k).type === "half_space");
     planes.forEach((a) => planes.forEach((b) => drops(a, b) || require_collider(scene, a, b)));
-    for (const c of contacts().filter(({ geom }) => !drops(...geom))) {
+    for (const c of linked_contacts(scene).filter(({ geom }) => !drops(...geom))) {
       const key = c.geom.join(" ");
       pairs.set(key, [...(pairs.get(key) ?? []), c]);
     }

@@ -19,6 +19,7 @@ function make_shape(s) {
     case "cone": return new rapier.Cone(s.half_height, s.radius);
     case "half_space": return new rapier.HalfSpace(xyz(unit(s.normal)));
     case "hull": return make_hull(s);
+    case "mesh": return make_field(s) ?? new rapier.TriMesh(new Float32Array(s.vertices.flat()), new Uint32Array(s.triangles.flat()));
     default: throw new kit.Unsupported(`the adapter does not support Rapier's ${s.type}`);
   }
 }
@@ -30,13 +31,31 @@ function make_hull(s) {
   made.free();
   return hull;
 }
+// Rows of the matrix are along Rapier's z, our -y. It is passed column by column, and its size in cells.
+function make_field(s) {
+  const field = kit.height_field_of(s);
+  if (!field) return null;
+  const { rows, columns, cell } = field, heights = new Float32Array(rows * columns);
+  s.vertices.forEach((v, k) => {
+    heights[(k % columns) * rows + rows - 1 - Math.floor(k / columns)] = v[2];
+  });
+  return new rapier.Heightfield(rows - 1, columns - 1, heights, { x: cell[0] * (columns - 1), y: 1, z: cell[1] * (rows - 1) });
+}
+// As heightfield3.rs computes its points.
+function held_vertices(s) {
+  const { rows, columns, cell } = kit.height_field_of(s);
+  const along = (k, n, length) => kit.f(kit.f(kit.f(kit.f(1 / (n - 1)) * k) - 0.5) * kit.f(length));
+  return s.vertices.map((v, k) => [along(k % columns, columns, cell[0] * (columns - 1)),
+    -along(rows - 1 - Math.floor(k / columns), rows, cell[1] * (rows - 1)), kit.f(v[2])]);
+}
+const stands_on_z = (s) => kit.stands_on_z(s) || kit.height_field_of(s) !== null;
 const unit = (n) => n.map((x) => x / Math.hypot(...n));
 const unlimited_reach = 1e15; // search distance for closest points
 
 let shapes = [];
 const shape_of = (scene, body) => scene.shapes[scene.bodies[body].shape];
 function place(scene, body, pose) {
-  const s = shape_of(scene, body), q = kit.unit_quaternion(pose.rotation, kit.stands_on_z(s));
+  const s = shape_of(scene, body), q = kit.unit_quaternion(pose.rotation, stands_on_z(s));
   if (s.type === "half_space" && s.offset !== 0)
     throw new kit.Unsupported("Rapier's half-space passes through its origin");
   return { t: xyz(pose.translation), q: { x: q[0], y: q[1], z: q[2], w: q[3] } };
@@ -106,17 +125,21 @@ const engine = {
   card: {
     batches: true, name: "rapier", library: "Rapier, WASM", version: kit.version(modules, "@dimforge/rapier3d-compat"),
     settings: "contactShape, intersectsShape and castShape; World.step and contactPairsWith",
-    source: "no tolerance is documented for queries",
+    source: "no tolerance is documented for queries; shape.d.ts: TriMeshFlags and HeightFieldFlags, FIX_INTERNAL_EDGES, "
+      + "which is not set: without it, contact normals at inner edges cause bumps",
+    separate_triangles: true,
   },
   load(scene) {
     shapes = scene.shapes.map(make_shape);
     const held = scene.bodies.map((b, body) => {
-      const s = shape_of(scene, body), on_z = kit.stands_on_z(s);
+      const s = shape_of(scene, body), on_z = stands_on_z(s);
       return kit.received_body(body, b, kit.columns_of(kit.unit_quaternion(b.pose.rotation, on_z)), on_z);
     });
-    const sized = scene.shapes.map((s, k) => s.type === "half_space"
-      ? { shape: k, size: [...kit.floats(unit(s.normal)), s.offset] } : kit.received_shape(s, k));
-    return { shapes: sized, bodies: held };
+    const sized = (s, k) => {
+      if (s.type === "half_space") return { shape: k, size: [...kit.floats(unit(s.normal)), s.offset] };
+      return kit.height_field_of(s) ? { shape: k, size: [], vertices: held_vertices(s) } : kit.received_shape(s, k);
+    };
+    return { shapes: scene.shapes.map(sized), bodies: held };
   },
   overlap({ a, b }, scene) {
     const [p, q] = pair(scene, a, b);

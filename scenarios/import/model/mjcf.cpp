@@ -124,6 +124,7 @@ class MjcfReader {
     const int n = static_cast<int>(count), id = replicates_++;
     const Vec3 offset = e.vec3("offset").value_or(Vec3::Zero()),
                euler = e.vec3("euler").value_or(Vec3::Zero());
+    if (!Vec3(euler * (n - 1)).allFinite()) e.fail("the angles of the last copy exceed the range of doubles");
     std::vector<MjcfPlace> places;
     Pose frame;
     for (int i = 0; i < n; ++i) {

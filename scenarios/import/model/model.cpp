@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numeric>
 
 #include "core/base/input_error.h"
@@ -100,6 +101,12 @@ Vec3 checked_end(const Pose& p, const ModelLink& link) {
   return p.translation;
 }
 
+void check_values(std::span<const double> values, const ModelJoint& joint) {
+  for (const double v : values)
+    if (!std::isfinite(v - joint.reference))
+      throw InputError("joint " + printable(joint.name), "its value exceeds the range of doubles");
+}
+
 }  // namespace
 
 std::size_t variable_count(JointType type) { return suffixes(type).size(); }
@@ -158,6 +165,7 @@ std::vector<Pose> link_poses(const Model& model, const Configuration& values) {
     const ModelJoint& joint = model.joints[j];
     const double mimicked = joint.mimic ? value_of_mimic(model, values, link.joint) : 0;
     const std::span<const double> v = joint.mimic ? std::span(&mimicked, 1) : std::span(values[j]);
+    check_values(v, joint);
     poses.push_back(
         compose(compose(poses[static_cast<std::size_t>(link.parent)], joint.origin), motion_of(joint, v)));
     checked_end(poses.back(), link);

@@ -171,6 +171,8 @@ TEST_CASE("elements that make many are refused with their place", "[import]") {
                  "m.xml:3: <replicate>: lacks the attribute count"));
   CHECK(contains(world("<replicate count='0'/>"), "m.xml:3: <replicate>: count must be a whole number"));
   CHECK(contains(world("<replicate count='1e9'/>"), "m.xml:3: <replicate>: count must be a whole number"));
+  CHECK(contains(world("<replicate count='11' euler='0 1e308 0'><geom size='1'/></replicate>"),
+                 "m.xml:3: <replicate>: the angles of the last copy exceed the range of doubles"));
   CHECK(contains(world("<replicate count='100000'>\n<replicate count='100000'/>\n</replicate>"),
                  "m.xml:4: <replicate>: a model with more than"));
   CHECK(contains(world("<attach prefix='a'/>"), "m.xml:3: <attach>: names neither"));
