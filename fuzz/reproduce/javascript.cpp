@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/base/input_error.h"
+#include "oracles/abi/height_field.h"
 #include "oracles/reproducer/source_text.h"
 
 namespace touchstone::fuzz {
@@ -97,7 +98,7 @@ constexpr std::string_view check_no_impact = R"(function check(x) {
 constexpr double error_of_missing_impact = 0.02;
 
 [[noreturn]] std::string no_mesh() {
-  throw InputError("reproduce", "no program with a mesh is written for engines from npm");
+  throw InputError("reproduce", "no program with this mesh is written for this engine");
 }
 
 struct ShapeText {
@@ -107,7 +108,19 @@ struct ShapeText {
     return fmt::format("{{ type: \"hull\", vertices: [{}] }}", list);
   }
   std::string operator()(const Padded<Hull>& s) const { return (*this)(s.inner); }
-  std::string operator()(const TriangleMesh&) const { return no_mesh(); }
+  std::string operator()(const TriangleMesh& m) const {
+    const auto field = kit::height_field_of({m.vertices.front().data(), 3 * m.vertices.size()},
+                                            {m.triangles.front().data(), 3 * m.triangles.size()});
+    std::string list, triangles;
+    for (const Vec3& v : m.vertices)
+      list += (list.empty() ? "" : ", ") + (field ? fmt::format("{}", v.z()) : js_array(v));
+    if (field)
+      return fmt::format("{{ type: \"field\", rows: {}, columns: {}, cell: [{}, {}], heights: [{}] }}",
+                         field->rows, field->columns, field->cell[0], field->cell[1], list);
+    for (const auto& t : m.triangles)
+      triangles += fmt::format("{}[{}, {}, {}]", triangles.empty() ? "" : ", ", t[0], t[1], t[2]);
+    return fmt::format("{{ type: \"mesh\", vertices: [{}], triangles: [{}] }}", list, triangles);
+  }
   std::string operator()(const SolidMesh&) const { return no_mesh(); }
   template <class S>
   std::string operator()(const S& s) const {
@@ -192,6 +205,8 @@ std::string check_of(const Finding& finding, const EngineQuestion& q, Truth& tru
 
 std::string javascript_program(const Finding& finding, const EngineCard& card, const EngineQuestion& q,
                                const EngineSource& source, Truth& truth, double tau) {
+  for (const int i : {q.a, q.b})
+    if (is_mesh(q.scene.shape_of(i)) && !source.makes_meshes) no_mesh();
   return filled(
       program,
       {{"TITLE", fmt::format("{} {} ({}): {}", card.library, card.version, finding.engine, finding.key())},

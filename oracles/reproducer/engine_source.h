@@ -28,6 +28,9 @@ struct EngineSource {
   /// defines `ask()`, which returns {overlap, distance, depth, normal, impact} as far as the question asks
   /// for them, about the constant `bodies` of the program: {a, b}, each {shape, at, quaternion, rows}.
   std::string npm_package = {};
+  /// Of a JavaScript module: whether it makes shapes of {type: "mesh", vertices, triangles} and, for those
+  /// that are height fields (oracles/abi/height_field.h), of {type: "field", rows, columns, cell, heights}.
+  bool makes_meshes = false;
   /// The points of a distance, of an `Answer x`.
   std::string point_a = "x.points[0]", point_b = "x.points[1]";
 };

@@ -33,11 +33,13 @@ inline constexpr std::string_view js_unit = R"(function unit({ quaternion: q }) 
   return q.map((c) => c / most / n);
 }
 )";
-/// JavaScript: `turn(body)`, the same for an engine whose capsules, cylinders and cones stand on y.
+/// JavaScript: `turn(body)`, the same for an engine whose capsules, cylinders, cones and height fields stand
+/// on y.
 inline constexpr std::string_view js_turn_from_y =
-    R"(// The engine's capsules, cylinders and cones stand on y, those of the bodies above on z.
+    R"(// The engine's capsules, cylinders, cones and height fields stand on y, those of the bodies above on z.
 function turn(body) {
-  const [x, y, z, w] = unit(body), stands = ["capsule", "cylinder", "cone"].includes(body.shape.type);
+  const [x, y, z, w] = unit(body);
+  const stands = ["capsule", "cylinder", "cone", "field"].includes(body.shape.type);
   return stands ? [x + w, y + z, z - y, w - x].map((c) => c * Math.SQRT1_2) : [x, y, z, w];
 }
 )";

@@ -91,6 +91,28 @@ TEST_CASE("an ellipsoid that touches an edge of a triangle within rounding is an
     }
 }
 
+// Found by the family of height fields: the edge is nearly along the rim, so that the direction was
+// approached by a few per cent a step.
+TEST_CASE("a cone whose rim touches an edge of a triangle within rounding is answered", "[narrow]") {
+  const Shape triangle = make_hull({{-3.0511723000026527, -1.5255861500013264, 0.4014708987622979},
+                                    {-1.5255861500013264, -1.5255861500013264, -1.168847779109126},
+                                    {-1.5255861500013264, 0, 0.5323685733852668}}),
+              cone = Cone{0.9540721864298236, 0.4236928736627685};
+  const Pose turned{Vec3::Zero(),
+                    {-0.17287700645385992, 0.6654845806171585, -0.6228676308534473, -0.37320199361119516}};
+  for (int i = -5; i <= 5; ++i)
+    for (int j = -5; j <= 5; ++j) {
+      const Pose pose{Vec3(2.479990644386289 + i * u, -1.720665032836943 + j * u, -0.21007482255565657),
+                      {0.023667461565445958, 0.3520659084329873, -0.22825303861218335, 0.9074083963390513}};
+      INFO(i << " " << j);
+      const DistanceAnswer d = distance({&triangle, turned}, {&cone, pose});
+      CHECK(d.outcome == Outcome::answered);
+      CHECK(std::abs(d.distance) < 1e-14);
+      CHECK((d.witness[1] - d.witness[0]).norm() < 1e-14);
+      CHECK(contact({&cone, pose}, {&triangle, turned}).outcome == Outcome::answered);
+    }
+}
+
 TEST_CASE("a pair without an algorithm is unsupported", "[narrow]") {
   const Shape plane = HalfSpace{};
   CHECK(overlap({&plane, {}}, {&plane, at(0, 0, 1)}).outcome == Outcome::unsupported);

@@ -20,11 +20,24 @@ const shape = (s) => ({
   cone: () => new rapier.Cone(s.half_height, s.radius),
   half_space: () => new rapier.HalfSpace(xyz(s.normal.map((x) => x / Math.hypot(...s.normal)))),
   hull: () => new rapier.ConvexPolyhedron(new Float32Array(s.vertices.flat())),
-}[s.type]());
-function ask() {
+@MESHES@}[s.type]());
+@FIELD@function ask() {
   const place = (body) => ({ shape: shape(body.shape), t: xyz(body.at), q: xyzw(turn(body)) });
   const p = place(bodies.a), q = place(bodies.b);
 @QUESTION@}
+)";
+
+constexpr std::string_view mesh_entries =
+    R"(  mesh: () => new rapier.TriMesh(new Float32Array(s.vertices.flat()), new Uint32Array(s.triangles.flat())),
+  field: () => field(s),
+)";
+constexpr std::string_view field_function =
+    R"(// A matrix by columns; its rows are along Rapier's z, the -y of the bodies above. Its size is given in cells.
+function field({ rows, columns, cell, heights }) {
+  const matrix = new Float32Array(rows * columns);
+  heights.forEach((h, k) => { matrix[(k % columns) * rows + rows - 1 - Math.floor(k / columns)] = h; });
+  return new rapier.Heightfield(rows - 1, columns - 1, matrix, { x: cell[0] * (columns - 1), y: 1, z: cell[1] * (rows - 1) });
+}
 )";
 
 constexpr std::string_view overlap =
@@ -59,10 +72,15 @@ EngineSource source(const EngineQuestion& q) {
     if (const auto* plane = std::get_if<HalfSpace>(&shape); plane && plane->offset != 0)
       throw InputError("reproduce", "Rapier's half-space passes through its origin");
   }
+  const bool has_mesh = is_mesh(q.scene.shape_of(q.a)) || is_mesh(q.scene.shape_of(q.b));
   EngineSource s;
   s.npm_package = "@dimforge/rapier3d-compat";
+  s.makes_meshes = true;
   s.includes = includes;
-  s.code = std::string(js_unit) + std::string(js_turn_from_y) + filled(code, {{"QUESTION", question(q)}});
+  s.code = std::string(js_unit) + std::string(js_turn_from_y) +
+           filled(code, {{"MESHES", std::string(has_mesh ? mesh_entries : "")},
+                         {"FIELD", std::string(has_mesh ? field_function : "")},
+                         {"QUESTION", question(q)}});
   return s;
 }
 
