@@ -15,12 +15,24 @@ from fractions import Fraction as F
 BITS = 200
 
 
+def sqrt_floor(x):
+    """The integer part of 2^k sqrt(x), and k: at least BITS bits, however small x is."""
+    k = BITS + max(0, (x.denominator.bit_length() - x.numerator.bit_length()) // 2)
+    return math.isqrt((x.numerator << (2 * k)) // x.denominator), k
+
+
 def sqrt_lo(x):
-    return F(math.isqrt((x.numerator << (2 * BITS)) // x.denominator), 1 << BITS) if x > 0 else F(0)
+    if x <= 0:
+        return F(0)
+    root, k = sqrt_floor(x)
+    return F(root, 1 << k)
 
 
 def sqrt_hi(x):
-    return F(math.isqrt((x.numerator << (2 * BITS)) // x.denominator) + 1, 1 << BITS) if x > 0 else F(0)
+    if x <= 0:
+        return F(0)
+    root, k = sqrt_floor(x)
+    return F(root + 1, 1 << k)
 
 
 def dot(a, b):

@@ -63,6 +63,10 @@ class SecondJudge(unittest.TestCase):
         self.gap_is("triangle", "box", [0, 0, 0.75], -0.25)
 
     def test_square_roots(self):
+        for x in (F(1, 3) ** 700, F(2) ** -1500, F(10) ** 40 / 7):  # with as many digits, however small
+            self.assertLessEqual(sqrt_lo(x) ** 2, x)
+            self.assertLess(x, sqrt_hi(x) ** 2)
+            self.assertLess(sqrt_hi(x) / sqrt_lo(x), 1 + F(1, 2**190))
         self.assertLess(sqrt_lo(F(2)) ** 2, 2)
         self.assertGreater(sqrt_hi(F(2)) ** 2, 2)
         self.assertLess(sqrt_hi(F(2)) - sqrt_lo(F(2)), F(1, 10 ** 50))
