@@ -113,6 +113,20 @@ TEST_CASE("a cone whose rim touches an edge of a triangle within rounding is ans
     }
 }
 
+// Found by the family of lattices.
+TEST_CASE("a cone's rim that touches another's side has one point in common with it", "[narrow]") {
+  const Shape low = Cone{0.875, 0.875}, high = Cone{0.875, 1.125};
+  for (const Quat& turn : {Quat{}, Quat{0, 0, 1, 1}, Quat{0, 0, 3, 1}})
+    for (int i = -2; i <= 2; ++i) {
+      const Pose pose{Vec3(0.75, 1, 1.25 + i * u), turn};
+      const DistanceAnswer d = distance({&low, {}}, {&high, pose});
+      REQUIRE(d.outcome == Outcome::answered);
+      CHECK(std::abs(d.distance) < 2e-15);
+      CHECK((d.witness[1] - d.witness[0]).norm() < 4e-15);
+      CHECK((d.witness[0] - Vec3(0.225, 0.3, 0.125)).norm() < 1e-7);
+    }
+}
+
 TEST_CASE("a pair without an algorithm is unsupported", "[narrow]") {
   const Shape plane = HalfSpace{};
   CHECK(overlap({&plane, {}}, {&plane, at(0, 0, 1)}).outcome == Outcome::unsupported);

@@ -229,7 +229,7 @@ void part_a_little(EpaResult<R>& e, const ConvexCore<R>& a, const ConvexCore<R>&
   const auto height = [&](const V3<R>& n) { return -n.dot(Difference<R>{a, b}.support(-n).w); };
   const R noise = rounding::wide_support_noise * std::numeric_limits<R>::epsilon() * size;
   R last = 0;  // length of the step before
-  for (int i = 0; i < most && e.upper > tolerance; ++i) {
+  for (int i = 0; i < most; ++i) {
     const V3<R> shift = R(parted_for_normal) * size * e.normal;
     const Distance<R> g = parted(shift);
     if (g.status != GjkStatus::separated) return;
