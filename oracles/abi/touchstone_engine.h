@@ -63,7 +63,7 @@ enum ts_shape_kind {
   TS_ELLIPSOID = 5,  /* size[0..2] = semi-axes */
   TS_HULL = 6,       /* vertices; triangles = its faces, counter-clockwise seen from outside; no triangles if flat */
   TS_HALF_SPACE = 7, /* size[0..2] = normal n (any length), size[3] = offset d: solid where n.x <= d */
-  TS_MESH = 8,       /* vertices, triangles: a surface */
+  TS_MESH = 8,       /* vertices, triangles: a surface; a height field is one (oracles/abi/height_field.h) */
   TS_ROUNDED_BOX = 9, /* size[0..2] = half extents of a box, size[3] = radius: all points within it of the box */
   TS_SOLID_MESH = 10, /* vertices, triangles: a closed surface, counter-clockwise seen from outside, and its inside */
   /* All points within the padding of another shape; size: as of that shape, then the padding */
@@ -101,7 +101,7 @@ typedef struct ts_body {
   int32_t shape;
   int32_t is_static;
   int32_t has_motion;
-  int32_t group; /* two bodies with the same group >= 0 are never paired */
+  int32_t group; /* two bodies with the same group >= 0 are never paired: parts of one compound body */
   ts_pose pose;
   double linear[3];  /* velocity over one step t in [0,1] */
   double angular[3]; /* world frame, about the body's origin: q(t) = exp(t w) q0 */

@@ -243,7 +243,10 @@ class Engine {
       sink.contact(sink.ctx, a, b, d->normal_ab.data(), -d->distance);
       out.claimed_tolerance = std::max(out.claimed_tolerance, claimed_margin(a, b));
     };
-    sim_ ? simulate_scene(report) : query_scene(report);
+    if (sim_)
+      simulate_scene(report);
+    else
+      query_scene(report);
   }
 
   template <class Report>

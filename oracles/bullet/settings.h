@@ -41,10 +41,12 @@ inline constexpr Setting settings[] = {{"query@0.001", false, 0.001},
 
 inline constexpr const char* query_settings =
     "btCollisionWorld::contactPairTest (distance: m_closestDistanceThreshold BT_LARGE_FLOAT); time of impact "
-    "convexSweepTest; rays rayTest with kF_UseGjkConvexCastRaytest; candidates btDbvtBroadphase; ";
+    "convexSweepTest; rays rayTest with kF_UseGjkConvexCastRaytest; candidates btDbvtBroadphase; height "
+    "fields "
+    "btHeightfieldTerrainShape; ";
 inline constexpr const char* sim_settings =
     "performDiscreteCollisionDetection in a fresh world; no distance, no time of impact; candidates "
-    "btDbvtBroadphase; ";
+    "btDbvtBroadphase; height fields btHeightfieldTerrainShape, in scenes groups btCompoundShape; ";
 inline std::string text_of(const Setting& s) {
   std::string text = s.sim ? sim_settings : query_settings;
   if (!s.margin)

@@ -60,7 +60,12 @@ function even_step(places) {
  * {rows, columns, cell: [x, y]} of a mesh that is written as a scene's height fields are, else null: height_field_of() of
  * oracles/abi/height_field.h. The heights are the z of its vertices, row by row.
  */
-export function height_field_of({ type, vertices, triangles }) {
+export function height_field_of(shape) {
+  if (!fields.has(shape)) fields.set(shape, recognised_field(shape));
+  return fields.get(shape);
+}
+const fields = new WeakMap(); // by shape, as it was loaded
+function recognised_field({ type, vertices, triangles }) {
   if (type !== "mesh" || triangles[0][0] !== 0 || triangles[0][1] !== 1 || triangles[0][2] < 3) return null;
   const columns = triangles[0][2] - 1, rows = vertices.length / columns;
   if (!(rows >= 2) || !Number.isInteger(rows) || triangles.length !== 2 * (rows - 1) * (columns - 1)) return null;

@@ -106,9 +106,9 @@ function make_shape(s) {
 }
 
 // How far a rounded corner, edge or rim may fall short, and a hull's points may stick out.
-const height_step = ({ vertices }) => {
-  const heights = vertices.map((v) => v[2]);
-  return (Math.max(...heights) - Math.min(...heights)) / (2 ** height_bits - 1); // HeightFieldShape.h, mBitsPerSample
+const height_step = ({ vertices }) => { // HeightFieldShape.h, mBitsPerSample
+  const [lo, hi] = vertices.reduce(([x, y], v) => [Math.min(x, v[2]), Math.max(y, v[2])], [Infinity, -Infinity]);
+  return (hi - lo) / (2 ** height_bits - 1);
 };
 function claim_of(s) {
   if (tuned) return s.type === "mesh" && kit.height_field_of(s) ? height_step(s) : 0;
@@ -150,7 +150,7 @@ function transformed(p) {
 // Also finds the closest points of shapes that are apart by no more than `reach`. Jolt inflates one shape by it, and
 // 1e15 would leave no digits. The distance between the centres of mass suffices for any, since both shapes contain theirs.
 // A mesh may be anywhere about its own.
-const farthest_vertex = (s) => (s.type === "mesh" ? Math.max(...s.vertices.map((v) => Math.hypot(...v))) : 0);
+const farthest_vertex = (s) => (s.type === "mesh" ? s.vertices.reduce((most, v) => Math.max(most, Math.hypot(...v)), 0) : 0);
 const any = (x, y) => reach_slack * Math.hypot(...x.map((c, k) => c - y[k]));
 const is_mesh = (scene, body) => shape_of(scene, body).type === "mesh";
 function collide(scene, a, b, reach) {
