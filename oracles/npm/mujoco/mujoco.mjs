@@ -85,18 +85,26 @@ function xml_of(scene, links) {
     + `<worldbody>${bodies.join("")}</worldbody></mujoco>`;
 }
 
-let model = null, data = null;
-function compile(scene, links) {
-  data?.delete();
-  model?.delete();
-  data = model = null;
+// Of the scene with each body alone; `linked`, {model, data, order}, of that with a group's bodies together, if they
+// differ: its k-th geom is that of the scene's body order[k].
+let model = null, data = null, linked = null;
+function compiled(scene, links) {
+  let made = null;
   try {
-    model = mj.MjModel.from_xml_string(xml_of(scene, links));
+    made = mj.MjModel.from_xml_string(xml_of(scene, links));
   } catch (why) {
     throw new kit.Unsupported(`MuJoCo's compiler refuses the scene: ${String(why.message || why).split("\n").join(" ")}`);
   }
-  data = new mj.MjData(model);
-  mj.mj_kinematics(model, data);
+  const state = new mj.MjData(made);
+  mj.mj_kinematics(made, state);
+  return { model: made, data: state, order: links.flat() };
+}
+function compile(scene) {
+  for (const made of [data, model, linked?.data, linked?.model]) made?.delete();
+  model = data = linked = null;
+  ({ model, data } = compiled(scene, links_of(scene, false)));
+  const links = links_of(scene, true);
+  if (links.length < scene.bodies.length) linked = compiled(scene, links);
 }
 
 // A mesh as placed in the frame of its shape: mesh_vert, rotated by mesh_quat, at mesh_pos.
@@ -123,15 +131,15 @@ function contacts(a, b) {
   all.delete();
   return out;
 }
-// All contacts of the scene whose groups are bodies of several geoms; by the numbers of the scene's bodies.
-function linked_contacts(scene) {
-  const links = links_of(scene, true), order = links.flat();
-  if (links.length === order.length) return contacts();
+// All contacts of the scene with its groups as bodies of several geoms, by the numbers of the scene's bodies.
+function linked_contacts() {
+  if (!linked) return contacts();
+  const own = { model, data }, { order } = linked;
+  ({ model, data } = linked);
   try {
-    compile(scene, links);
     return contacts().map((c) => ({ ...c, geom: c.geom.map((k) => order[k]) }));
   } finally {
-    compile(scene, links_of(scene, false));
+    ({ model, data } = own);
   }
 }
 // mjmodel.h: vertices of a mesh are floats; they are also turned into the frame of its inertia and back.
@@ -202,7 +210,7 @@ const engine = {
       + "mjmodel.h: vertices of meshes are float",
   },
   load(scene) {
-    compile(scene, links_of(scene, false));
+    compile(scene);
     const shapes = new Map();
     scene.bodies.forEach((b, geom) => {
       const s = scene.shapes[b.shape];
@@ -237,7 +245,7 @@ const engine = {
     const drops = kit.filter_of(scene), pairs = new Map(), planes = [...scene.bodies.keys()].filter((k) =>
       shape_of(scene, k).type === "half_space");
     planes.forEach((a) => planes.forEach((b) => drops(a, b) || require_collider(scene, a, b)));
-    for (const c of linked_contacts(scene).filter(({ geom }) => !drops(...geom))) {
+    for (const c of linked_contacts().filter(({ geom }) => !drops(...geom))) {
       const key = c.geom.join(" ");
       pairs.set(key, [...(pairs.get(key) ?? []), c]);
     }
