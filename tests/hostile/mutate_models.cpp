@@ -186,6 +186,9 @@ std::string said_about(const Good& g, const fs::path& folder) try {
   const auto names = [&](const std::string& file) {
     return std::string(e.what()).find(file) != std::string::npos;
   };
+  // A mesh is read by a child process, whose report goes nowhere: a sanitizer has ended it.
+  if (e.reason().find("ended without a result") != std::string::npos)
+    return std::string("a child process exited: ") + e.what();
   const bool says_where = names(g.damaged) || (g.is_included && names(g.model)) ||
                           std::ranges::any_of(files_named_in(g.text), names);
   return says_where && !e.reason().empty() ? ""
