@@ -142,6 +142,7 @@ Shape ImportContext::mesh(const fs::path& file, const Vec3& scale, bool convex, 
       it->second = load_mesh(file, how);
     } catch (const InputError& e) {
       meshes_.erase(it);
+      if (e.place() == place) throw;  // the mesh is what was asked for
       throw InputError(place, e.what());
     }
   TriangleMesh mesh = it->second;

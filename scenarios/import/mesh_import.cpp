@@ -156,6 +156,7 @@ const aiScene& read_scene(Assimp::Importer& importer, const std::filesystem::pat
   const aiScene* scene = importer.ReadFile(file, aiProcess_Triangulate);
   if (scene && scene->mRootNode) return *scene;
   std::string reason = importer.GetErrorString();
+  if (reason.find("bad_alloc") != std::string::npos) reason = "it asks for more memory than is allowed";
   for (char& c : reason)
     if (c == '\n' || c == '\r') c = ' ';
   throw InputError(file, "cannot be read as a mesh: " + (reason.empty() ? "no reason given" : reason));

@@ -97,6 +97,18 @@ TEST_CASE("a file that is not a mesh is refused with name and reason", "[scene][
   CHECK(contains(said(dir.write("nan.obj", "v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")), "not finite"));
 }
 
+TEST_CASE("a file that asks for terabytes is refused", "[scene][mesh][bad-input]") {
+  const test::TempDir dir;
+  const auto file = dir.write("list.ply",
+                              "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                              "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
+                              "end_header\n0 0 0\n1 0 0\n0 1 0\n999999999993 0 1 2\n");
+  const std::string s = refusal([&] { load_mesh(file); });
+  CHECK(contains(s, file.string()));
+  // A sanitizer ends the reader instead.
+  CHECK((contains(s, "more memory than is allowed") || contains(s, "ended without a result")));
+}
+
 TEST_CASE("a truncated binary STL is refused at every length", "[scene][mesh][bad-input]") {
   const test::TempDir dir;
   const std::string whole = binary_stl(4);
