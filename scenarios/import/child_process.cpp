@@ -9,6 +9,7 @@
 #include <csignal>
 #include <cstring>
 #include <exception>
+#include <fstream>
 
 #include "core/base/input_error.h"
 
@@ -16,19 +17,8 @@ namespace touchstone {
 namespace {
 
 constexpr rlim_t cpu_seconds = 60;
-// A few numbers of a file may ask for any amount of memory. A sanitizer maps terabytes, which it does not
-// use.
-#if defined(__SANITIZE_ADDRESS__)
-constexpr rlim_t memory_bytes = RLIM_INFINITY;
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer)
-constexpr rlim_t memory_bytes = RLIM_INFINITY;
-#else
+// A few numbers of a file may ask for any amount of memory.
 constexpr rlim_t memory_bytes = rlim_t{8} << 30;
-#endif
-#else
-constexpr rlim_t memory_bytes = rlim_t{8} << 30;
-#endif
 constexpr char succeeded = 'r', refused = 'e';  // first byte of what the child writes
 
 void write_all(int to, const std::string& bytes) {
@@ -51,12 +41,21 @@ std::string read_all(int from) {
   }
 }
 
+// Beyond what the process has already. A sanitizer maps terabytes at its start.
+void limit_memory() {
+  rlim_t pages = 0;
+  if (!(std::ifstream("/proc/self/statm") >> pages)) return;
+  const rlim_t most = pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) + memory_bytes;
+  const rlimit memory{most, most};
+  setrlimit(RLIMIT_AS, &memory);
+}
+
 [[noreturn]] void work_and_end(int to, const std::function<std::string()>& work) {
   for (const int s : {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGXCPU, SIGPROF, SIGTERM, SIGINT})
     std::signal(s, SIG_DFL);
-  const rlimit time{cpu_seconds, cpu_seconds + 1}, memory{memory_bytes, memory_bytes}, no_core{0, 0};
+  const rlimit time{cpu_seconds, cpu_seconds + 1}, no_core{0, 0};
   setrlimit(RLIMIT_CPU, &time);
-  setrlimit(RLIMIT_AS, &memory);
+  limit_memory();
   setrlimit(RLIMIT_CORE, &no_core);
   if (const int null = open("/dev/null", O_WRONLY); null >= 0) dup2(null, STDERR_FILENO);
   std::string out;
