@@ -109,8 +109,7 @@ struct ShapeText {
   }
   std::string operator()(const Padded<Hull>& s) const { return (*this)(s.inner); }
   std::string operator()(const TriangleMesh& m) const {
-    const auto field = kit::height_field_of({m.vertices.front().data(), 3 * m.vertices.size()},
-                                            {m.triangles.front().data(), 3 * m.triangles.size()});
+    const auto field = kit::height_field_of(m);
     std::string list, triangles;
     for (const Vec3& v : m.vertices)
       list += (list.empty() ? "" : ", ") + (field ? fmt::format("{}", v.z()) : js_array(v));

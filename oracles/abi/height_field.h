@@ -80,4 +80,15 @@ inline std::optional<HeightField> height_field_of(std::span<const double> vertic
   return f;
 }
 
+/// The same of a mesh with lists of points and of triples, such as TriangleMesh.
+template <class Mesh>
+std::optional<HeightField> height_field_of(const Mesh& m) requires requires {
+  m.vertices.front().data();
+}
+{
+  if (m.vertices.empty() || m.triangles.empty()) return std::nullopt;
+  return height_field_of({m.vertices.front().data(), 3 * m.vertices.size()},
+                         {m.triangles.front().data(), 3 * m.triangles.size()});
+}
+
 }  // namespace touchstone::kit

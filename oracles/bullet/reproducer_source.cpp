@@ -24,11 +24,6 @@ std::string transform(const Pose& p) {
                      scalar(q.w), vector(p.translation));
 }
 
-std::optional<kit::HeightField> height_field_of(const TriangleMesh& m) {
-  return kit::height_field_of({m.vertices.front().data(), 3 * m.vertices.size()},
-                              {m.triangles.front().data(), 3 * m.triangles.size()});
-}
-
 // Statements that create `shape_<i>`. The margin is set last, except for a hull, whose AABB is computed with
 // the margin that is set when its points are added.
 struct Maker {
@@ -96,7 +91,7 @@ struct Maker {
            fmt::format("  shape_{}.setLocalScaling({});\n", i, vector({f.cell[0], f.cell[1], 1}));
   }
   std::string operator()(const TriangleMesh& s) const {
-    if (const auto field = height_field_of(s)) return height_field(s, *field);
+    if (const auto field = kit::height_field_of(s)) return height_field(s, *field);
     std::string out = fmt::format("  btTriangleMesh triangles_{};\n", i);
     for (const auto& t : s.triangles) {
       const auto corner = [&](std::size_t k) { return vector(s.vertices[static_cast<std::size_t>(t[k])]); };
@@ -291,11 +286,14 @@ std::string candidates(const EngineQuestion& q) {
   return out + "  x.overlap = found;\n";
 }
 
-// The convex bodies of each group as one object, as the adapter makes them; all others as they are.
+// The convex bodies of each group as one object, as the adapter makes them for the simulation; all others as
+// they are.
 std::vector<Holder> holders(const EngineQuestion& q, std::string& out) {
   std::vector<Holder> all;
   std::map<int, int> convex_in, children;
-  const auto is_part = [&](int i) { return q.body(i).group >= 0 && has_support(q.scene.shape_of(i)); };
+  const auto is_part = [&](int i) {
+    return is_sim(q) && q.body(i).group >= 0 && has_support(q.scene.shape_of(i));
+  };
   const auto count = static_cast<int>(q.scene.bodies.size());
   for (int i = 0; i < count; ++i) convex_in[q.body(i).group] += is_part(i);
   for (int i = 0; i < count; ++i) {
@@ -328,11 +326,7 @@ std::string for_each_object(const std::vector<Holder>& all, std::string_view cal
 
 std::string scene_contacts(const EngineQuestion& q) {
   std::string out = all_objects(q);
-  std::vector<Holder> all;
-  if (is_sim(q))
-    all = holders(q, out);
-  else
-    for (std::size_t i = 0; i < q.scene.bodies.size(); ++i) all.push_back({fmt::format("object_{}", i)});
+  const std::vector<Holder> all = holders(q, out);
   out += for_each_object(all, "addCollisionObject");
   if (is_sim(q))
     out += simulated(all[static_cast<std::size_t>(q.a)], all[static_cast<std::size_t>(q.b)]);
@@ -428,7 +422,7 @@ std::string body_of(const EngineQuestion& q) {
 std::string includes_of_fields(const EngineQuestion& q) {
   const bool any = std::ranges::any_of(q.scene.shapes, [](const Shape& s) {
     const auto* m = std::get_if<TriangleMesh>(&s);
-    return m && height_field_of(*m);
+    return m && kit::height_field_of(*m);
   });
   return any ? "#include <BulletCollision/CollisionShapes/btHeightfieldTerrainShape.h>\n" : "";
 }

@@ -14,10 +14,6 @@
 namespace touchstone::fuzz {
 namespace {
 
-void ask_pair(Case& c) {
-  c.queries = {{Question::overlap, 0, 1}, {Question::distance, 0, 1}, {Question::contact, 0, 1}};
-}
-
 Scene pair_of(Rng& rng, double scale = 1, const Vec3& origin = Vec3::Zero()) {
   const auto [a, b] = random_kinds(rng);
   return random_pair(rng, a, b, scale, origin);
@@ -86,7 +82,6 @@ void contained(Rng& rng, Case& c) {
 void lattice(Rng& rng, Case& c) {
   static const Quat turns[] = {{0, 0, 0, 1}, {1, 0, 0, 1}, {0, 1, 0, 1},
                                {0, 0, 1, 1}, {1, 1, 1, 1}, {1, 0, 0, 0}};
-  const auto round8 = [](double x) { return std::round(x * 8) / 8; };
   const auto [a, b] = random_kinds(rng);
   Scene s = random_pair(rng, a, b, 1, Vec3::Zero());
   for (Shape& shape : s.shapes)
@@ -94,12 +89,12 @@ void lattice(Rng& rng, Case& c) {
         [&](auto& x) {
           for_each_field(x, [&](auto, auto& v, Domain) {
             using V = std::decay_t<decltype(v)>;
-            if constexpr (std::is_same_v<V, double>) v = std::max(0.125, round8(v));
+            if constexpr (std::is_same_v<V, double>) v = std::max(0.125, to_eighths(v));
             if constexpr (std::is_same_v<V, Vec3>)
-              for (double& e : v) e = std::max(0.125, round8(e));
+              for (double& e : v) e = std::max(0.125, to_eighths(e));
             if constexpr (std::is_same_v<V, std::vector<Vec3>>)
               for (Vec3& p : v)
-                for (double& e : p) e = round8(e);
+                for (double& e : p) e = to_eighths(e);
           });
         },
         shape);
@@ -110,7 +105,7 @@ void lattice(Rng& rng, Case& c) {
   const Vec3 n = placement_direction(rng, s);
   const double gap = rng.chance(0.5) ? 0 : rng.uniform(-0.6, 0.3);
   place_along(rng, s, n, gap, 0.3);
-  for (double& e : s.bodies[1].pose.translation) e = round8(e);
+  for (double& e : s.bodies[1].pose.translation) e = to_eighths(e);
   c.scene = std::move(s);
   ask_pair(c);
 }

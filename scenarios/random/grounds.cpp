@@ -10,21 +10,19 @@
 namespace touchstone::fuzz {
 namespace {
 
-double eighth(double x) { return std::round(8 * x) / 8; }
-
 // Heights between -height and height at a point of the grid, x and y in [-1, 1].
 double height_at(Rng& rng, std::uint64_t style, double x, double y, double height) {
   switch (style) {
     case 0:
       return 0;
     case 1:  // a slope
-      return eighth(height) * (x + y) / 2;
+      return to_eighths(height) * (x + y) / 2;
     case 2:  // steps
       return x < 0 ? -height : height;
     case 3:  // a hill
       return height * (1 - std::min(1.0, x * x + y * y));
     case 4:
-      return eighth(rng.uniform(-height, height));
+      return to_eighths(rng.uniform(-height, height));
     default:
       return rng.uniform(-height, height);
   }
@@ -46,13 +44,6 @@ TriangleMesh random_field(Rng& rng, double scale) {
 
 void stand_upright(Scene& s, int body) { s.bodies[static_cast<std::size_t>(body)].pose.rotation = {}; }
 
-void ask_ray_at(Rng& rng, Scene& s, const Vec3& aim) {
-  const Vec3 way = rng.vector(0.5, 6);
-  s.shapes[1] = Sphere{0};
-  s.bodies[1].pose = {aim - rng.uniform(0.05, 1.2) * way, {}};
-  s.bodies[1].motion = Motion{way, Vec3::Zero()};
-}
-
 }  // namespace
 
 // A convex body at a point of the surface, above or below it, with a gap or a depth there; one in eight
@@ -71,14 +62,16 @@ void height_fields(Rng& rng, Case& c) {
   const auto placing = rng.below(8);
   if (placing == 0) s.bodies[1].pose.translation *= rng.uniform(1, 1.5);
   const auto asked = rng.below(12);
-  if (asked == 0 && may_draw(ShapeKind::sphere)) ask_ray_at(rng, s, at.point);
-  c.scene = std::move(s);
-  if (asked == 0 && may_draw(ShapeKind::sphere)) {
+  const bool is_ray = asked == 0 && may_draw(ShapeKind::sphere);
+  if (is_ray) {
+    const Vec3 way = rng.vector(0.5, 6);
+    make_ray(s, at.point, way, rng.uniform(0.05, 1.2));
     c.queries = {{Question::ray, 0, 1}};
-    return;
   }
+  c.scene = std::move(s);
+  if (is_ray) return;
   if (asked < 3) return ask_impact_against(rng, c, at.normal, 0.2);
-  c.queries = {{Question::overlap, 0, 1}, {Question::distance, 0, 1}, {Question::contact, 0, 1}};
+  ask_pair(c);
   if (rng.below(4) == 0) exchange_bodies(c.scene);
 }
 
@@ -96,11 +89,11 @@ void add_compound(Rng& rng, Scene& s, int group, const Vec3& place, bool on_latt
     const ShapeKind kind = random_convex_kind(rng);
     s.shapes.push_back(random_shape(rng, kind, rng.uniform(0.2, 0.6)));
     if (on_lattice && may_draw(ShapeKind::box))
-      s.shapes.back() = Box{Vec3{eighth(rng.uniform(0.2, 1)), eighth(rng.uniform(0.2, 1)), 0.25}};
+      s.shapes.back() = Box{Vec3{to_eighths(rng.uniform(0.2, 1)), to_eighths(rng.uniform(0.2, 1)), 0.25}};
     b.pose.rotation = rng.chance(0.5) || on_lattice ? turn : rng.rotation();
     b.pose.translation = place + rng.vector(0, 0.8);
     if (on_lattice)
-      for (double& x : b.pose.translation) x = eighth(x);
+      for (double& x : b.pose.translation) x = to_eighths(x);
     s.bodies.push_back(std::move(b));
   }
 }

@@ -63,10 +63,6 @@ Shape hull_of_many(Rng& rng) {
   return make_hull(std::move(v));
 }
 
-void ask_pair(Case& c) {
-  c.queries = {{Question::overlap, 0, 1}, {Question::distance, 0, 1}, {Question::contact, 0, 1}};
-}
-
 }  // namespace
 
 void ask_impact_against(Rng& rng, Case& c, const Vec3& n, double least) {

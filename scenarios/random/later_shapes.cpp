@@ -92,7 +92,7 @@ void one_of_kinds(Rng& rng, Case& c, Kinds kinds, Kinds partners) {
   if (moves) set_in_motion(rng, s);
   if (!moves && both_convex && rng.chance(0.5)) exchange_bodies(s);
   c.scene = std::move(s);
-  c.queries = {{Question::overlap, 0, 1}, {Question::distance, 0, 1}, {Question::contact, 0, 1}};
+  ask_pair(c);
   if (moves) c.queries = {{Question::time_of_impact, 0, 1}};
   if (!moves && rng.below(8) == 0)
     c.queries = {{Question::candidates, -1, -1}, {Question::scene_contacts, -1, -1}};

@@ -160,7 +160,7 @@ void loose_crowd(Rng& rng, Case& c) {
     Vec3 p;
     for (double& x : p) {
       x = rng.uniform(-side / 2, side / 2);
-      if (lattice) x = std::round(8 * x) / 8;
+      if (lattice) x = to_eighths(x);
     }
     return p;
   };
@@ -211,12 +211,9 @@ void rays(Rng& rng, Case& c) {
                            : kind == 1 && may_draw(ShapeKind::mesh)     ? ShapeKind::mesh
                                                                         : random_convex_kind(rng);
   Scene s = random_pair(rng, target, ShapeKind::sphere, 1, Vec3::Zero());
-  s.shapes[1] = Sphere{0};
-  s.bodies[1].pose.rotation = {};
   const Vec3 aim = aim_at(rng, s), way = rng.vector(0.5, 6);
   const double part = rng.below(8) == 0 ? 1 : rng.uniform(0.05, 1.2);
-  s.bodies[1].pose.translation = aim - part * way;
-  s.bodies[1].motion = Motion{way, Vec3::Zero()};
+  make_ray(s, aim, way, part);
   c.scene = std::move(s);
   c.queries = {{Question::ray, 0, 1}};
 }

@@ -57,7 +57,7 @@ void two_meshes(Rng& rng, Case& c) {
   else
     repeat(rng, s);
   c.scene = std::move(s);
-  c.queries = {{Question::overlap, 0, 1}, {Question::distance, 0, 1}, {Question::contact, 0, 1}};
+  ask_pair(c);
 }
 
 }  // namespace touchstone::fuzz

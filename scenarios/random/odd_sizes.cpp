@@ -9,9 +9,9 @@
 namespace touchstone::fuzz {
 namespace {
 
-void ask_pair(Case& c, Scene s) {
+void ask_about(Case& c, Scene s) {
   c.scene = std::move(s);
-  c.queries = {{Question::overlap, 0, 1}, {Question::distance, 0, 1}, {Question::contact, 0, 1}};
+  ask_pair(c);
 }
 
 // Body 1 flies towards body 0 from its position.
@@ -110,7 +110,7 @@ void zero_sizes(Rng& rng, Case& c) {
   }
   if (bounded && rng.chance(0.5)) exchange_bodies(s);
   if (rng.below(8) == 0) return ask_impact(rng, c, std::move(s));
-  ask_pair(c, std::move(s));
+  ask_about(c, std::move(s));
 }
 
 // Placed against the face of a box, or against the farthest point of another body in some direction.
@@ -124,7 +124,7 @@ void unequal_sizes(Rng& rng, Case& c) {
   const double gap = any_gap(rng, extent(s.shapes[1]));
   place_along(rng, s, n, gap, face ? rng.uniform(0, 0.6) : 0);
   if (rng.chance(0.5)) exchange_bodies(s);
-  ask_pair(c, std::move(s));
+  ask_about(c, std::move(s));
 }
 
 // The second body has the first one's rotation except for a turn by 2^-45 to 1/8 and possibly by quarter
@@ -148,7 +148,7 @@ void nearly_parallel(Rng& rng, Case& c) {
       rng.chance(0.6) && across.norm() > least_across ? Vec3(across.normalized()) : Vec3(axes.col(k));
   const double aside = rng.uniform(0, 0.4);
   place_along(rng, s, n, any_gap(rng, mean_extent(s)), aside);
-  ask_pair(c, std::move(s));
+  ask_about(c, std::move(s));
 }
 
 }  // namespace touchstone::fuzz

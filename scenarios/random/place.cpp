@@ -55,6 +55,16 @@ Vec3 farthest_point(const Scene& s, int body, const Vec3& n) {
       s.shape_of(body));
 }
 
+void make_ray(Scene& s, const Vec3& aim, const Vec3& way, double part) {
+  s.shapes[1] = Sphere{0};
+  s.bodies[1].pose = {aim - part * way, {}};
+  s.bodies[1].motion = Motion{way, Vec3::Zero()};
+}
+
+void ask_pair(Case& c) {
+  c.queries = {{Question::overlap, 0, 1}, {Question::distance, 0, 1}, {Question::contact, 0, 1}};
+}
+
 double mean_extent(const Scene& s) {
   const double a = extent(s.shape_of(0)), b = extent(s.shape_of(1));
   return a == 0 ? b : (b == 0 ? a : (a + b) / 2);

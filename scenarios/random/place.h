@@ -1,8 +1,10 @@
 // Placing a pair so that the gap is known: along a chosen direction, or by construction.
 #pragma once
 
+#include <cmath>
+
 #include "core/math/rng.h"
-#include "core/scene/scene.h"
+#include "scenarios/value/case.h"
 
 namespace touchstone::fuzz {
 
@@ -22,6 +24,16 @@ Vec3 placement_direction(Rng& rng, const Scene& pair);
 Vec3 farthest_point(const Scene& s, int body, const Vec3& n);
 
 double mean_extent(const Scene& pair);
+
+/// The nearest multiple of 1/8.
+inline double to_eighths(double x) { return std::round(x * 8) / 8; }
+
+/// Body 1, of shape 1, becomes a ray, a point that moves by `way` in the step and is at `aim` after `part` of
+/// it.
+void make_ray(Scene& pair, const Vec3& aim, const Vec3& way, double part);
+
+/// Asks for overlap, distance and contact of bodies 0 and 1.
+void ask_pair(Case& c);
 
 /// Two kinds of which at least one is bounded and convex: never mesh with mesh (family `surfaces`),
 /// half-space with half-space, or mesh with half-space. The unbounded or static kind comes first.

@@ -82,7 +82,7 @@ void solids(Rng& rng, Case& c) {
   const bool moves = is_convex(other) && rng.below(6) == 0;
   c.scene = std::move(s);
   if (moves) return ask_impact_against(rng, c, n, -0.5);
-  c.queries = {{Question::overlap, 0, 1}, {Question::distance, 0, 1}, {Question::contact, 0, 1}};
+  ask_pair(c);
   if (rng.below(8) == 0) c.queries = {{Question::candidates, -1, -1}, {Question::scene_contacts, -1, -1}};
   if (rng.below(4) == 0) exchange_bodies(c.scene);
 }

@@ -71,6 +71,21 @@ TEST_CASE("exactly touching pairs overlap", "[narrow]") {
   CHECK_FALSE(overlap({&box, {}}, {&box, at(2 + 1e-12, 0, 0)}).overlap);
 }
 
+// Bodies that touch within rounding, B also moved by some.
+void check_touching(const PlacedShape& a, PlacedShape b) {
+  const Vec3 at = b.pose.translation;
+  for (int i = -5; i <= 5; ++i)
+    for (int j = -5; j <= 5; ++j) {
+      b.pose.translation = at + Vec3(i * u, j * u, 0);
+      INFO(i << " " << j);
+      const DistanceAnswer d = distance(a, b);
+      CHECK(d.outcome == Outcome::answered);
+      CHECK(std::abs(d.distance) < 1e-14);
+      CHECK((d.witness[1] - d.witness[0]).norm() < 1e-14);
+      CHECK(contact(b, a).outcome == Outcome::answered);
+    }
+}
+
 // Found by the mesh family: the polytope of B − A is so flat around the origin that it cannot be expanded.
 TEST_CASE("an ellipsoid that touches an edge of a triangle within rounding is answered", "[narrow]") {
   constexpr double half = 1.1384248672565769;
@@ -78,17 +93,10 @@ TEST_CASE("an ellipsoid that touches an edge of a triangle within rounding is an
               egg = Ellipsoid{{0.16063052277573625, 0.1373527542821865, 0.20129838533149608}};
   const Pose turned{Vec3::Zero(),
                     {0.2760016525769287, 0.6068566349991795, 0.11100131634075007, -0.8302119884560526}};
-  for (int i = -5; i <= 5; ++i)
-    for (int j = -5; j <= 5; ++j) {
-      const Pose pose{Vec3(-0.5650428613186169 + i * u, -0.8245982943972869 + j * u, 0.5560646834358809),
-                      {0.22594235141629906, -0.31003006869361455, 0.8553984913840303, 0.34802992871336697}};
-      INFO(i << " " << j);
-      const DistanceAnswer d = distance({&triangle, turned}, {&egg, pose});
-      CHECK(d.outcome == Outcome::answered);
-      CHECK(std::abs(d.distance) < 1e-14);
-      CHECK((d.witness[1] - d.witness[0]).norm() < 1e-14);
-      CHECK(contact({&egg, pose}, {&triangle, turned}).outcome == Outcome::answered);
-    }
+  check_touching({&triangle, turned},
+                 {&egg,
+                  {Vec3(-0.5650428613186169, -0.8245982943972869, 0.5560646834358809),
+                   {0.22594235141629906, -0.31003006869361455, 0.8553984913840303, 0.34802992871336697}}});
 }
 
 // Found by the family of height fields: the edge is nearly along the rim, so that the direction was
@@ -100,17 +108,10 @@ TEST_CASE("a cone whose rim touches an edge of a triangle within rounding is ans
               cone = Cone{0.9540721864298236, 0.4236928736627685};
   const Pose turned{Vec3::Zero(),
                     {-0.17287700645385992, 0.6654845806171585, -0.6228676308534473, -0.37320199361119516}};
-  for (int i = -5; i <= 5; ++i)
-    for (int j = -5; j <= 5; ++j) {
-      const Pose pose{Vec3(2.479990644386289 + i * u, -1.720665032836943 + j * u, -0.21007482255565657),
-                      {0.023667461565445958, 0.3520659084329873, -0.22825303861218335, 0.9074083963390513}};
-      INFO(i << " " << j);
-      const DistanceAnswer d = distance({&triangle, turned}, {&cone, pose});
-      CHECK(d.outcome == Outcome::answered);
-      CHECK(std::abs(d.distance) < 1e-14);
-      CHECK((d.witness[1] - d.witness[0]).norm() < 1e-14);
-      CHECK(contact({&cone, pose}, {&triangle, turned}).outcome == Outcome::answered);
-    }
+  check_touching({&triangle, turned},
+                 {&cone,
+                  {Vec3(2.479990644386289, -1.720665032836943, -0.21007482255565657),
+                   {0.023667461565445958, 0.3520659084329873, -0.22825303861218335, 0.9074083963390513}}});
 }
 
 // Found by the family of lattices.

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <map>
 
-#include "core/impact/impact.h"
 #include "oracles/abi/height_field.h"
 #include "tests/mutants/pair.h"
 #include "tests/mutants/topics.h"
@@ -13,9 +12,7 @@ namespace {
 
 std::optional<kit::HeightField> field_of(const Shape& s) {
   const auto* m = std::get_if<TriangleMesh>(&s);
-  if (!m) return std::nullopt;
-  return kit::height_field_of({m->vertices.front().data(), 3 * m->vertices.size()},
-                              {m->triangles.front().data(), 3 * m->triangles.size()});
+  return m ? kit::height_field_of(*m) : std::nullopt;
 }
 
 // ---- a height field as an engine might hold it; `f` describes m
@@ -46,64 +43,51 @@ void rows_and_columns_exchanged(const kit::HeightField& f, TriangleMesh& m) {
     for (std::size_t c = 0; c < f.columns; ++c)
       m.vertices[r * f.columns + c].z() = before[c * f.columns + r].z();
 }
+std::pair<double, double> heights_of(const TriangleMesh& m) {
+  const auto [lo, hi] = std::ranges::minmax(m.vertices, {}, [](const Vec3& v) { return v.z(); });
+  return {lo.z(), hi.z()};
+}
 void heights_of_eight_bits(const kit::HeightField&, TriangleMesh& m) {
   constexpr double steps = 255;
-  double lo = m.vertices.front().z(), hi = lo;
-  for (const Vec3& v : m.vertices) {
-    lo = std::min(lo, v.z());
-    hi = std::max(hi, v.z());
-  }
+  const auto [lo, hi] = heights_of(m);
   if (!(hi > lo)) return;
   for (Vec3& v : m.vertices) v.z() = lo + std::round((v.z() - lo) / (hi - lo) * steps) / steps * (hi - lo);
 }
 void lifted_to_centre(const kit::HeightField&, TriangleMesh& m) {
-  double lo = m.vertices.front().z(), hi = lo;
-  for (const Vec3& v : m.vertices) {
-    lo = std::min(lo, v.z());
-    hi = std::max(hi, v.z());
-  }
+  const auto [lo, hi] = heights_of(m);
   for (Vec3& v : m.vertices) v.z() -= (lo + hi) / 2;
 }
 
-// A pair of which one is a height field.
-struct HeldPair {
-  Shape a, b;
-  bool has_field = false;
-  HeldPair(const Case& c, const Query& q, Held held) : a(c.scene.shape_of(q.a)), b(c.scene.shape_of(q.b)) {
-    for (Shape* s : {&a, &b})
-      if (const auto f = field_of(*s)) {
-        held(*f, std::get<TriangleMesh>(*s));
-        has_field = true;
-      }
-  }
-};
+bool has_field(const Case& c, const Query& q) {
+  return field_of(c.scene.shape_of(q.a)) || field_of(c.scene.shape_of(q.b));
+}
+SeenPair held_pair(const Case& c, const Query& q, Held held) {
+  return SeenPair(c, q, [&](Shape s) {
+    if (const auto f = field_of(s)) held(*f, std::get<TriangleMesh>(s));
+    return s;
+  });
+}
 
 Lie overlap_with(Held held) {
   return [held](const Case& c, const Query& q, Observation& o) {
-    if (!asks(q, Question::overlap) || !o.overlap) return;
-    const HeldPair p(c, q, held);
-    if (p.has_field) o.overlap = overlap({&p.a, body(c, q.a).pose}, {&p.b, body(c, q.b).pose}).overlap;
+    if (!asks(q, Question::overlap) || !o.overlap || !has_field(c, q)) return;
+    const SeenPair p = held_pair(c, q, held);
+    o.overlap = overlap(p.first(), p.second()).overlap;
   };
 }
 Lie distance_with(Held held) {
   return [held](const Case& c, const Query& q, Observation& o) {
-    if (!asks(q, Question::distance) || !o.distance) return;
-    const HeldPair p(c, q, held);
-    if (!p.has_field) return;
-    const DistanceAnswer d = distance({&p.a, body(c, q.a).pose}, {&p.b, body(c, q.b).pose});
+    if (!asks(q, Question::distance) || !o.distance || !has_field(c, q)) return;
+    const SeenPair p = held_pair(c, q, held);
+    const DistanceAnswer d = distance(p.first(), p.second());
     o.distance = d.distance;
     o.witness = d.witness;
   };
 }
 Lie impact_with(Held held) {
   return [held](const Case& c, const Query& q, Observation& o) {
-    if (q.question != Question::time_of_impact) return;
-    const HeldPair p(c, q, held);
-    if (!p.has_field) return;
-    const auto moving = [&](const Shape& s, int i) {
-      return MovingShape(&s, body(c, i).pose, body(c, i).motion.value_or(Motion{}));
-    };
-    const ImpactAnswer r = time_of_impact(moving(p.a, q.a), moving(p.b, q.b));
+    if (q.question != Question::time_of_impact || !has_field(c, q)) return;
+    const ImpactAnswer r = impact_of(held_pair(c, q, held), c, q);
     if (r.outcome == Outcome::answered) o.toi = r.toi;
   };
 }
@@ -129,13 +113,6 @@ void solid_below(const Case& c, const Query& q, Observation& o) {
 // ---- bodies of several shapes
 
 using Contacts = std::vector<SceneContact>;
-using ChangeOfContacts = void (*)(const Case&, Contacts&);
-
-Lie on_contacts(ChangeOfContacts f) {
-  return [f](const Case& c, const Query& q, Observation& o) {
-    if (asks(q, Question::scene_contacts)) f(c, o.contacts);
-  };
-}
 int group_of(const Case& c, int i) { return body(c, i).group; }
 // The number of a body among those of its group.
 int part_of(const Case& c, int i) {
@@ -202,16 +179,15 @@ std::vector<Mutant> ground_lies() {
        overlap_with(lifted_to_centre)},
       {"field_solid_below", "ghost", "fields", "a body below the ground overlaps it", solid_below},
       {"compound_first_part", "missed", "compounds", "contacts name the first part of a group",
-       on_contacts(named_by_first_part)},
+       on_scene(named_by_first_part)},
       {"compound_one_contact", "missed", "compounds", "two groups have one contact, the deepest",
-       on_contacts(deepest_of_groups)},
+       on_scene(deepest_of_groups)},
       {"compound_three_parts", "missed", "compounds", "parts after the third are lost",
-       on_contacts(fourth_part_lost)},
+       on_scene(fourth_part_lost)},
       {"compound_normal_turned", "infeasible", "compounds",
-       "the normal is reversed if A is a later part of its group than B",
-       on_contacts(normals_of_groups_turned)},
+       "the normal is reversed if A is a later part of its group than B", on_scene(normals_of_groups_turned)},
       {"compound_first_partner", "missed", "compounds", "a part meets one part of another group only",
-       on_contacts(first_partner_only)},
+       on_scene(first_partner_only)},
   };
 }
 

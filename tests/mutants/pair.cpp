@@ -32,6 +32,19 @@ bool contained(const Case& c, const Query& q) {
   return inside(x, y) || inside(y, x);
 }
 
+ImpactAnswer impact_of(const SeenPair& p, const Case& c, const Query& q) {
+  const auto moving = [&](const PlacedShape& s, int i) {
+    return MovingShape(s.shape, s.pose, body(c, i).motion.value_or(Motion{}));
+  };
+  return time_of_impact(moving(p.first(), q.a), moving(p.second(), q.b));
+}
+
+Lie on_scene(SceneLie lie) {
+  return [lie](const Case& c, const Query& q, Observation& o) {
+    if (asks(q, Question::scene_contacts)) lie(c, o.contacts);
+  };
+}
+
 Lie on_contact(ContactLie lie) {
   return [lie](const Case& c, const Query& q, Observation& o) {
     if (asks(q, Question::contact) && o.normal && o.depth) lie(c, q, o);

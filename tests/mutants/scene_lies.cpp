@@ -9,14 +9,6 @@ namespace touchstone::mutants {
 namespace {
 
 using Contacts = std::vector<SceneContact>;
-using Change = void (*)(const Case&, Contacts&);
-
-Lie on_scene(Change f) {
-  return [f](const Case& c, const Query& q, Observation& o) {
-    if (asks(q, Question::scene_contacts)) f(c, o.contacts);
-  };
-}
-
 void last_dropped(const Case&, Contacts& x) {
   if (!x.empty()) x.pop_back();
 }

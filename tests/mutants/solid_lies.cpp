@@ -1,5 +1,4 @@
 // Lies about solid meshes.
-#include "core/impact/impact.h"
 #include "core/shape/solid_mesh.h"
 #include "tests/mutants/pair.h"
 #include "tests/mutants/topics.h"
@@ -33,19 +32,6 @@ bool has_solid(const Case& c, const Query& q) {
   return is_pair_question(q.question) &&
          (kind(c, q.a) == ShapeKind::solid_mesh || kind(c, q.b) == ShapeKind::solid_mesh);
 }
-
-// The pair with its shapes as an engine sees them.
-struct SeenPair {
-  Shape a, b;
-  Pose at_a, at_b;
-  SeenPair(const Case& c, const Query& q, Seen see)
-      : a(see(c.scene.shape_of(q.a))),
-        b(see(c.scene.shape_of(q.b))),
-        at_a(body(c, q.a).pose),
-        at_b(body(c, q.b).pose) {}
-  PlacedShape first() const { return {&a, at_a}; }
-  PlacedShape second() const { return {&b, at_b}; }
-};
 
 Lie overlap_of(Seen see) {
   return [see](const Case& c, const Query& q, Observation& o) {
@@ -81,10 +67,7 @@ void twice_as_deep(const Case& c, const Query& q, Observation& o) {
 void impact_of_surfaces(const Case& c, const Query& q, Observation& o) {
   if (q.question != Question::time_of_impact || !o.toi || !has_solid(c, q)) return;
   const SeenPair p(c, q, as_surface);
-  const auto moving = [&](const PlacedShape& s, int i) {
-    return MovingShape(s.shape, s.pose, body(c, i).motion.value_or(Motion{}));
-  };
-  const ImpactAnswer r = time_of_impact(moving(p.first(), q.a), moving(p.second(), q.b));
+  const ImpactAnswer r = impact_of(p, c, q);
   if (r.outcome == Outcome::answered) o.toi = r.toi;
 }
 

@@ -92,7 +92,7 @@ class MeridianSearch {
 
   V3<R> across(R theta) const { return cos(theta) * u_ + sin(theta) * v_; }
   V3<R> direction(R theta, R alpha) const { return sin(alpha) * across(theta) + cos(alpha) * w_; }
-  R height(const V3<R>& n) const { return -n.dot(Difference<R>{a_, b_}.support(-n).w); }
+  R height(const V3<R>& n) const { return Difference<R>{a_, b_}.height(n); }
 
   /// Direction of least height, and that height.
   std::pair<V3<R>, R> least() const {
@@ -159,16 +159,16 @@ template <class R>
 EpaResult<R> proximal(const V3<R>& n, R share, const ConvexCore<R>& a, const ConvexCore<R>& b, R size,
                       R tolerance) {
   constexpr int budget = 2000;
-  const auto height = [&](const V3<R>& m) { return -m.dot(Difference<R>{a, b}.support(-m).w); };
+  const Difference<R> d{a, b};
   EpaResult<R> step;
-  const V3<R> shift = -n * (height(n) * share);  // D's outward normal is −n
+  const V3<R> shift = -n * (d.height(n) * share);  // D's outward normal is −n
   ConvexCore<R> moved = b;
   moved.frame.translation -= shift;
   const Distance<R> g = gjk<R>(a, moved, tolerance, tolerance / 4, budget);
   if (g.status != GjkStatus::enclosed && g.status != GjkStatus::touching) return step;
   step = Epa<R>(a, moved, size, tolerance).run(g, budget);
   step.b += shift;
-  step.upper = height(step.normal);
+  step.upper = d.height(step.normal);
   return step;
 }
 
@@ -226,28 +226,27 @@ void part_a_little(EpaResult<R>& e, const ConvexCore<R>& a, const ConvexCore<R>&
     moved.frame.translation += shift;
     return gjk<R>(a, moved, tolerance, tolerance / 4, budget);
   };
-  const auto height = [&](const V3<R>& n) { return -n.dot(Difference<R>{a, b}.support(-n).w); };
+  const Difference<R> d{a, b};
   const R noise = rounding::wide_support_noise * std::numeric_limits<R>::epsilon() * size;
   R last = 0;  // length of the step before
   for (int i = 0; i < most; ++i) {
     const V3<R> shift = R(parted_for_normal) * size * e.normal;
     const Distance<R> g = parted(shift);
     if (g.status != GjkStatus::separated) return;
-    const R depth = height(g.normal);
+    const R depth = d.height(g.normal);
     if (!(depth < e.upper)) break;
     const V3<R> step = g.normal - e.normal;
     e.upper = depth;
     e.normal = g.normal;
     e.a = g.a;
     e.b = g.b - shift;
-    const R length = step.norm();
-    const bool shrinks = length < last;
-    const R farthest = 2 * length / (last - length);
-    last = shrinks ? R(0) : length;
-    if (!shrinks) continue;
+    const R length = step.norm(), before = std::exchange(last, length);
+    if (!(length < before)) continue;
+    last = 0;
+    const R farthest = 2 * length / (before - length);
     const auto ahead = [&](R x) { return V3<R>((g.normal + x * step).normalized()); };
     const auto [x, least] =
-        detail::least_between<R>(0, farthest, noise, [&](R at) { return height(ahead(at)); });
+        detail::least_between<R>(0, farthest, noise, [&](R at) { return d.height(ahead(at)); });
     if (!(least < e.upper)) continue;
     e.upper = least;
     e.normal = ahead(x);

@@ -16,6 +16,8 @@ struct Difference {
     const V3<R> from = narrow::support<R>(a, -d);
     return {narrow::support<R>(b, d) - from, from};
   }
+  /// How far B must move along the unit vector n to leave A; negative if they are apart along it.
+  R height(const V3<R>& n) const { return -n.dot(support(-n).w); }
 };
 
 template <class R>

@@ -67,6 +67,7 @@ function mesh_settings({ vertices, triangles }) {
 // Jolt's x, y, z are our y, z, x here, so that its cells have the same diagonal. Its fields are square: what is
 // missing is a gap. HeightFieldShape.h: mSampleCount is at least twice mBlockSize.
 const block_size = 2, height_bits = tuned ? 16 : 8;
+const is_field = (s) => kit.height_field_of(s) !== null;
 function field_settings(s) {
   const field = kit.height_field_of(s);
   if (!field) return null;
@@ -83,14 +84,14 @@ function field_settings(s) {
 }
 
 // The triangles that Jolt holds: those of a mesh with coordinates of 21 bits, and none without area.
-function held_triangles(shape, is_field) {
+function held_triangles(shape, of_field) {
   const all = new Jolt.ShapeGetTriangles(shape, Jolt.AABox.prototype.sBiggest(), vec([0, 0, 0]), no_turn, one);
   const numbers = new Float32Array(Jolt.HEAPF32.buffer, all.GetVerticesData(), 9 * all.GetNumTriangles()).slice();
   Jolt.destroy(all);
   const vertices = [], triangles = [];
   for (let k = 0; k < numbers.length; k += 3) {
     const [x, y, z] = numbers.slice(k, k + 3);
-    vertices.push(is_field ? [z, x, y] : [x, y, z]);
+    vertices.push(of_field ? [z, x, y] : [x, y, z]);
     if (k % 9 === 0) triangles.push([0, 1, 2].map((i) => k / 3 + i));
   }
   return { type: "mesh", vertices, triangles };
@@ -111,18 +112,19 @@ const height_step = ({ vertices }) => { // HeightFieldShape.h, mBitsPerSample
   return (hi - lo) / (2 ** height_bits - 1);
 };
 function claim_of(s) {
-  if (tuned) return s.type === "mesh" && kit.height_field_of(s) ? height_step(s) : 0;
+  if (is_field(s)) return height_step(s);
+  if (tuned) return 0;
   if (s.type === "hull") return default_radius + hull_tolerance; // mMaxErrorConvexRadius, mHullTolerance
-  if (s.type === "mesh" && kit.height_field_of(s)) return height_step(s);
   if (s.type === "box") return (Math.sqrt(3) - 1) * Math.min(default_radius, ...s.half_extents);
   return s.type === "cylinder" ? (Math.SQRT2 - 1) * Math.min(default_radius, s.radius, s.half_height) : 0;
 }
 
-let shapes = [];
-const shape_of = (scene, body) => scene.shapes[scene.bodies[body].shape];
+let shapes = [], claims = [], reaches = []; // by the numbers of the scene's shapes: Jolt's, what each claims, how far a mesh reaches
+const of_body = (list, scene, body) => list[scene.bodies[body].shape];
+const shape_of = (scene, body) => of_body(scene.shapes, scene, body);
 const rotation_of = (scene, body, pose) => {
-  const s = shape_of(scene, body), is_field = kit.height_field_of(s) !== null;
-  return keep(new Jolt.Quat(...(is_field ? kit.unit_quaternion_cycled(pose.rotation) : kit.unit_quaternion(pose.rotation, kit.stands_on_z(s)))));
+  const s = shape_of(scene, body);
+  return keep(new Jolt.Quat(...(is_field(s) ? kit.unit_quaternion_cycled(pose.rotation) : kit.unit_quaternion(pose.rotation, kit.stands_on_z(s)))));
 };
 
 // A value returned by a function is overwritten by its next call, so it has to be copied.
@@ -159,7 +161,7 @@ function collide(scene, a, b, reach) {
   settings.mCollisionTolerance = settings.mPenetrationTolerance = tolerance;
   const found = keep(new Jolt.CollideShapeClosestHitCollisionCollector());
   const [p, q] = [placed(scene, a), placed(scene, b)], [x, y] = [p, q].map((s) => list(s.mass_centre.GetTranslation()));
-  settings.mMaxSeparationDistance = reach === any ? any(x, y) + Math.max(0, ...[a, b].map((body) => farthest_vertex(shape_of(scene, body)))) : reach;
+  settings.mMaxSeparationDistance = reach === any ? any(x, y) + Math.max(...[a, b].map((body) => of_body(reaches, scene, body))) : reach;
   settings.mBackFaceMode = Jolt.EBackFaceMode_CollideWithBackFaces; // a mesh is a surface
   // In the result, shape 1 is the argument and shape 2 the transformed shape.
   transformed(q).CollideShape(p.shape, one, p.mass_centre, settings, origin, found, every_shape);
@@ -167,7 +169,7 @@ function collide(scene, a, b, reach) {
 }
 
 const claim = (scene, a, b, depth = 0) =>
-  tolerance * (1 + Math.abs(depth)) + claim_of(shape_of(scene, a)) + claim_of(shape_of(scene, b));
+  tolerance * (1 + Math.abs(depth)) + of_body(claims, scene, a) + of_body(claims, scene, b);
 // First without a search distance, which would spoil shallow depths.
 function closest(scene, a, b, reach) {
   const hit = collide(scene, a, b, 0) || collide(scene, a, b, reach);
@@ -227,15 +229,16 @@ const engine = {
     shapes.forEach((s) => s.Release());
     shapes = [];
     for (const s of scene.shapes) shapes.push(make_shape(s));
+    claims = scene.shapes.map(claim_of);
+    reaches = scene.shapes.map(farthest_vertex);
     const held = scene.bodies.map((b, body) => {
       const m = matrix_of(rotation_of(scene, body, b.pose), b.pose.translation);
       const columns = [list(m.GetAxisX()), list(m.GetAxisY()), list(m.GetAxisZ())];
-      const is_field = kit.height_field_of(shape_of(scene, body)) !== null;
-      const ours = is_field ? [columns[2], columns[0], columns[1]] : columns;
-      return kit.received_body(body, b, ours, !is_field && kit.stands_on_z(shape_of(scene, body)));
+      const s = shape_of(scene, body), ours = is_field(s) ? [columns[2], columns[0], columns[1]] : columns;
+      return kit.received_body(body, b, ours, kit.stands_on_z(s));
     });
     const held_shape = (s, k) => s.type === "mesh"
-      ? { shape: k, as: held_triangles(shapes[k], kit.height_field_of(s) !== null) } : kit.received_shape(s, k);
+      ? { shape: k, as: held_triangles(shapes[k], is_field(s)) } : kit.received_shape(s, k);
     const sized = scene.shapes.map(held_shape);
     sweep();
     return { shapes: sized, bodies: held };

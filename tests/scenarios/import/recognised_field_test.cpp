@@ -14,11 +14,6 @@ using namespace touchstone;
 
 namespace {
 
-std::optional<kit::HeightField> field_of(const TriangleMesh& m) {
-  return kit::height_field_of({m.vertices.front().data(), 3 * m.vertices.size()},
-                              {m.triangles.front().data(), 3 * m.triangles.size()});
-}
-
 TriangleMesh hills(std::size_t rows, std::size_t columns, double dx, double dy) {
   return centred_height_surface(rows, columns, dx, dy, [](std::size_t r, std::size_t c) {
     return 0.25 * static_cast<double>((3 * r + c) % 4);
@@ -32,7 +27,7 @@ TEST_CASE("the height fields of scenes are recognised, with cells of any size") 
   for (int i = 0; i < 2000; ++i) {
     const std::size_t rows = 2 + rng.below(40), columns = 2 + rng.below(40);
     const double dx = rng.binary_scale(-30, 20), dy = rng.uniform(0.001, 1000);
-    const auto f = field_of(hills(rows, columns, dx, dy));
+    const auto f = kit::height_field_of(hills(rows, columns, dx, dy));
     REQUIRE(f);
     CHECK(f->rows == rows);
     CHECK(f->columns == columns);
@@ -46,7 +41,7 @@ TEST_CASE("a scene's height_field is the mesh that is recognised") {
       R"({"touchstone_scene": 1, "shapes": [{"type": "height_field", "cell": [0.1, 0.3],
           "heights": [[0, 1, 0.5], [2, 0, 0.25]]}], "bodies": [{"shape": 0}]})",
       "s");
-  const auto f = field_of(*triangles_if(s.shapes[0]));
+  const auto f = kit::height_field_of(*triangles_if(s.shapes[0]));
   REQUIRE(f);
   CHECK((f->rows == 2 && f->columns == 3));
   CHECK(f->cell[0] == Approx(0.1).epsilon(1e-14));
@@ -55,7 +50,7 @@ TEST_CASE("a scene's height_field is the mesh that is recognised") {
 
 TEST_CASE("so are those of imported files") {
   const HeightGrid grid{3, 7, {0, 1, 0.5F, 0.25F, 1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 0.125F, 1, 1, 0}};
-  const auto f = field_of(surface_of(grid, 1.7, 0.3, 0.9));
+  const auto f = kit::height_field_of(surface_of(grid, 1.7, 0.3, 0.9));
   REQUIRE(f);
   CHECK((f->rows == 3 && f->columns == 7));
   CHECK(f->cell[0] == Approx(3.4 / 6).epsilon(1e-14));
@@ -63,11 +58,11 @@ TEST_CASE("so are those of imported files") {
 
 TEST_CASE("no other mesh is taken for a height field") {
   const TriangleMesh good = hills(3, 4, 0.5, 0.25);
-  REQUIRE(field_of(good));
+  REQUIRE(kit::height_field_of(good));
   const auto refused = [&](auto change) {
     TriangleMesh m = good;
     change(m);
-    return !field_of(m);
+    return !kit::height_field_of(m);
   };
   CHECK(refused([](TriangleMesh& m) { m.triangles.pop_back(); }));
   CHECK(refused([](TriangleMesh& m) { std::swap(m.triangles[3], m.triangles[4]); }));
@@ -88,6 +83,7 @@ TEST_CASE("no other mesh is taken for a height field") {
     for (Vec3& v : m.vertices) v.y() = 0;
   }));
   CHECK(refused([](TriangleMesh& m) { m.vertices[6].z() = std::numeric_limits<double>::infinity(); }));
-  CHECK_FALSE(field_of({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}}));
-  CHECK_FALSE(field_of({{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}}));
+  CHECK_FALSE(kit::height_field_of(TriangleMesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}}));
+  CHECK_FALSE(kit::height_field_of(
+      TriangleMesh{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}}));
 }
